@@ -1,0 +1,31 @@
+#include "apps/method_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace penumbra::apps {
+namespace {
+
+void add_reference_options(CLI::App& command, ReferenceOptions& options) {
+  CLI::App& group = *command.add_option_group("Method reference", "stratified rays to the disk (Embree)");
+  group.add_option("--samples", options.samples, "Rays a pixel, rounded up to a multiple of 16")
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  group.add_option("--seed", options.seed, "Two seeds give two independent images")->capture_default_str();
+}
+
+void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
+  CLI::App& group =
+      *command.add_option_group("Method dbuffer", "what the light's centre sees of the penumbra (OpenGL)");
+  group.add_option("--dbuffer-size", options.size, "Texels a side of the D-buffer; 0: 1024")
+      ->check(CLI::Range(0, 16'384))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_method_options(CLI::App& command, RenderOptions& options) {
+  add_reference_options(command, options.reference);
+  add_d_buffer_options(command, options.d_buffer);
+}
+
+}  // namespace penumbra::apps

@@ -1,0 +1,36 @@
+// Where results go: checks before any work is done, and writing of text and JSON.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace penumbra::apps {
+
+inline bool is_stdout(const std::filesystem::path& path) {
+  return path == "-";
+}
+
+/// In lower case, with the dot.
+std::string extension_of(const std::filesystem::path& path);
+
+/// Throws UsageError unless the extension is one of `known`, or the path is "-" and that is allowed.
+void require_extension(const std::string& option, const std::filesystem::path& path,
+                       std::initializer_list<std::string_view> known, bool stdout_allowed);
+
+/// Throws SystemError where the file could not be created: no such folder, a folder itself, no permission.
+/// Finds before minutes of work what writing would find after them. Empty paths and "-" pass.
+void require_writable(const std::filesystem::path& path);
+
+/// Throws UsageError where more than one of these is standard output. Empty paths are ignored.
+void require_one_stdout(const std::vector<std::filesystem::path>& paths);
+
+std::string to_text(
+    const nlohmann::json& json);  ///< indented, names that are no UTF-8 made so, ends with a newline
+void write_json(const std::filesystem::path& path, const nlohmann::json& json);
+void print(const std::string& text);  ///< to standard output
+
+}  // namespace penumbra::apps

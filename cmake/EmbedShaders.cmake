@@ -1,0 +1,10 @@
+# Writes every file of SHADERS as a raw string into OUT, behind penumbra::gl::shader_source(name).
+set(text "#include <string_view>\n#include <stdexcept>\n#include <string>\n\n#include \"render/gl/shaders.h\"\n\n")
+string(APPEND text "namespace penumbra::gl {\n\nstd::string_view shader_source(std::string_view name) {\n")
+foreach(file IN LISTS SHADERS)
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} content)
+  string(APPEND text "  if (name == \"${name}\") return R\"glsl(${content})glsl\";\n")
+endforeach()
+string(APPEND text "  throw std::logic_error(\"no shader \" + std::string(name));\n}\n\n}  // namespace penumbra::gl\n")
+file(WRITE ${OUT} "${text}")

@@ -1,0 +1,142 @@
+#include "mesh/inspect.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace penumbra {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json_array(const Vec3& p) {
+  return {p.x, p.y, p.z};
+}
+
+Json to_json_object(const BuildReport& report) {
+  return {{"welded_vertices", report.welded_vertices},
+          {"unused_vertices", report.unused_vertices},
+          {"split_vertices", report.split_vertices},
+          {"degenerate", report.degenerate},
+          {"zero_area", report.zero_area},
+          {"duplicates", report.duplicates},
+          {"non_manifold_edges", report.non_manifold_edges},
+          {"non_manifold_vertices", report.non_manifold_vertices},
+          {"misoriented_edges", report.misoriented_edges},
+          {"flipped_components", report.flipped_components},
+          {"flipped_faces", report.flipped_faces}};
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+std::string point(const Vec3& p) {
+  char text[96];
+  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x, p.y, p.z);
+  return text;
+}
+
+/// "  12 duplicate faces kept (first: 5, 9, 40)"; nothing where the list is empty.
+std::string list_line(const std::vector<std::uint32_t>& ids, const char* what) {
+  constexpr std::size_t kShown = 5;
+  if (ids.empty()) {
+    return {};
+  }
+  std::string line = "  ";
+  line.append(std::to_string(ids.size())).append(" ").append(what).append(" (input triangles ");
+  for (std::size_t i = 0; i < std::min(ids.size(), kShown); ++i) {
+    line.append(i == 0 ? "" : ", ").append(std::to_string(ids[i]));
+  }
+  return line + (ids.size() > kShown ? ", ...)\n" : ")\n");
+}
+
+std::string count_line(std::size_t count, const char* what) {
+  if (count == 0) {
+    return {};
+  }
+  std::string line = "  ";
+  return line.append(std::to_string(count)).append(" ").append(what).append("\n");
+}
+
+std::string findings_of_build(const BuildReport& report) {
+  std::string text =
+      list_line(report.degenerate, "degenerate faces left out") +
+      list_line(report.zero_area, "faces without area kept") +
+      list_line(report.duplicates, "faces that repeat another kept") +
+      count_line(report.non_manifold_edges, "edges with more than two faces, cut") +
+      count_line(report.misoriented_edges, "edges between faces of opposite orientation, cut") +
+      count_line(report.non_manifold_vertices, "vertices between separate fans of faces, split") +
+      count_line(report.split_vertices, "vertices added by cutting and splitting") +
+      count_line(report.welded_vertices, "vertices welded to another at the same position") +
+      count_line(report.unused_vertices, "vertices that no face uses, left out") +
+      count_line(report.flipped_components, "inside-out components turned outward");
+  return text.empty() ? "findings      none\n" : "findings\n" + text;
+}
+
+}  // namespace
+
+MeshFindings inspect(const TriangleMesh& mesh) {
+  MeshFindings findings;
+  findings.vertices = mesh.positions().size();
+  findings.edges = mesh.edges().size();
+  findings.faces = mesh.triangles().size();
+  findings.components = mesh.components().size();
+  for (const Component& component : mesh.components()) {
+    findings.closed_components += component.closed;
+    findings.signed_volume += component.closed ? component.signed_volume : 0.0;
+  }
+  for (const Edge& edge : mesh.edges()) {
+    // One fan at each vertex: a boundary vertex begins one boundary edge and ends one, so there are as many
+    // of each.
+    findings.boundary_edges += edge.is_boundary();
+  }
+  findings.boundary_vertices = findings.boundary_edges;
+  findings.build = mesh.report();
+  findings.closed = mesh.is_closed();
+  findings.bounds = bounds_of(mesh.positions());
+  for (const auto& [a, b, c] : mesh.triangles()) {
+    const Vec3 &p = mesh.positions()[a], &q = mesh.positions()[b], &r = mesh.positions()[c];
+    findings.surface_area += 0.5 * glm::length(glm::cross(q - p, r - p));
+  }
+  return findings;
+}
+
+std::string to_text(const MeshFindings& f) {
+  std::string text = "faces         " + std::to_string(f.faces) + ", " + std::to_string(f.edges) +
+                     " edges, " + std::to_string(f.vertices) + " vertices\n";
+  text += "components    " + std::to_string(f.components) + ", " + std::to_string(f.closed_components) +
+          " closed\n";
+  text += f.closed ? "surface       closed and consistently oriented\n"
+                   : "surface       open: " + std::to_string(f.boundary_edges) + " boundary edges\n";
+  text += f.bounds.empty() ? "bounds        empty\n"
+                           : "bounds        " + point(f.bounds.low) + " to " + point(f.bounds.high) + "\n";
+  text += "area          " + number(f.surface_area) + "\n";
+  text += "volume        " + number(f.signed_volume) + (f.closed ? "\n" : " (closed components only)\n");
+  return text + findings_of_build(f.build);
+}
+
+std::string to_json(const MeshFindings& f) {
+  const Json bounds = f.bounds.empty() ? Json(nullptr)
+                                       : Json{{"low", to_json_array(f.bounds.low)},  //
+                                              {"high", to_json_array(f.bounds.high)}};
+  const Json json = {{"vertices", f.vertices},
+                     {"edges", f.edges},
+                     {"faces", f.faces},
+                     {"components", f.components},
+                     {"closed_components", f.closed_components},
+                     {"boundary_edges", f.boundary_edges},
+                     {"boundary_vertices", f.boundary_vertices},
+                     {"build", to_json_object(f.build)},
+                     {"closed", f.closed},
+                     {"bounds", bounds},
+                     {"signed_volume", f.signed_volume},
+                     {"surface_area", f.surface_area}};
+  return json.dump(2);
+}
+
+}  // namespace penumbra

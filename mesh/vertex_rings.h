@@ -1,0 +1,25 @@
+// Which edges meet at each vertex. Built once per mesh, since nothing in it depends on the light.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+
+namespace penumbra {
+
+class VertexRings {
+ public:
+  /// Cost O(V + E).
+  explicit VertexRings(const TriangleMesh& mesh);
+  /// The edges at v, ascending.
+  std::span<const EdgeId> edges(VertexId v) const {
+    return {edges_.data() + first_[index(v)], edges_.data() + first_[index(v) + 1]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<EdgeId> edges_;
+};
+
+}  // namespace penumbra

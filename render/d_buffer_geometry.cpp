@@ -1,0 +1,146 @@
+#include "render/d_buffer_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+/// A point in (u, v, w).
+struct Uvw {
+  glm::dvec2 uv;
+  double w;
+};
+
+Uvw project(const Vec3& p) { return {glm::dvec2(p.x, p.y) / p.z, 1.0 / p.z}; }
+
+class Appender {
+ public:
+  Appender(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
+           const EntryGeometryOptions& options, EntryGeometry& out)
+      : mesh_(mesh), space_(space), supports_(supports), options_(options), out_(out),
+        first_(static_cast<std::uint32_t>(out.records.size() / 4)) {}
+
+  void run() {
+    for (std::uint32_t i = 0; i < supports_.facets.size(); ++i) {
+      add_record(supports_.facets[i]);
+      add_facet(i);
+    }
+    for (const ConeSector& cone : supports_.cones) add_cone(cone);
+  }
+
+ private:
+  Vec3 local(VertexId v) const { return space_.to_light(mesh_.position(v)); }
+  VertexId begin_of(const SupportFacet& f) const {
+    const Edge& e = mesh_.edges()[index(f.edge)];
+    return f.flipped ? e.to : e.from;
+  }
+  VertexId end_of(const SupportFacet& f) const {
+    const Edge& e = mesh_.edges()[index(f.edge)];
+    return f.flipped ? e.from : e.to;
+  }
+
+  void add_record(const SupportFacet& f) {
+    const auto point = [&](VertexId v, bool there) { return glm::vec4(glm::vec3(local(v)), there ? 1.0f : 0.0f); };
+    const bool before = f.previous != kNoFacet, after = f.next != kNoFacet;
+    out_.records.push_back(point(before ? begin_of(supports_.facets[f.previous]) : begin_of(f), before));
+    out_.records.push_back(point(begin_of(f), true));
+    out_.records.push_back(point(end_of(f), true));
+    out_.records.push_back(point(after ? end_of(supports_.facets[f.next]) : end_of(f), after));
+  }
+
+  /// The quadrilateral from the edge along the plane w = (cos φ u + sin φ v + κ)/r, down to the farthest receiver.
+  void add_facet(std::uint32_t i) {
+    const SupportFacet& f = supports_.facets[i];
+    Vec3 pa = local(begin_of(f)), pb = local(end_of(f));
+    if (!cut(pa, pb)) return;
+    const Uvw a = project(pa), b = project(pb);
+    const glm::dvec2 downhill{-std::cos(f.rim_angle), -std::sin(f.rim_angle)};
+    const double reach_a = std::max(0.0, a.w - options_.far_weight) * space_.radius;
+    const double reach_b = std::max(0.0, b.w - options_.far_weight) * space_.radius;
+    const glm::dvec2 along = b.uv - a.uv;
+    const double length = glm::length(along);
+    glm::dvec2 e = length > 1e-12 ? along / length : glm::dvec2(-downhill.y, downhill.x);
+    glm::dvec2 out{-e.y, e.x};
+    if (glm::dot(out, downhill) < 0.0) out = -out;
+    const double d = options_.dilation;
+    const double top = std::max(a.w, b.w);
+    const auto on_plane = [&](const glm::dvec2& uv) {
+      return Uvw{uv, std::clamp(a.w - glm::dot(uv - a.uv, downhill) / space_.radius, 0.0, top)};
+    };
+    const Uvw corners[4] = {on_plane(a.uv - d * e - d * out), on_plane(b.uv + d * e - d * out),
+                            on_plane(b.uv + reach_b * downhill + d * e + d * out),
+                            on_plane(a.uv + reach_a * downhill - d * e + d * out)};
+    auto& triangles = f.kind == SupportKind::kPenumbra ? out_.penumbra : out_.umbra;
+    for (int k : {0, 1, 2, 0, 2, 3}) push(triangles, corners[k], first_ + i);
+  }
+
+  /// The sector of the cone, as a fan circumscribed to it.
+  void add_cone(const ConeSector& cone) {
+    const Vec3 p = local(cone.vertex);
+    if (p.z <= options_.near_depth) return;
+    const Uvw apex = project(p);
+    const double reach = std::max(0.0, apex.w - options_.far_weight) * space_.radius + options_.dilation;
+    const double sector = cone.to_angle - cone.from_angle;
+    // A chord of half angle h, pushed out to touch the circle, overshoots by 1/cos h - 1: half a texel is allowed.
+    const double allowed = std::max(1e-3, 0.5 * options_.dilation / reach);
+    const double half = std::acos(1.0 / (1.0 + allowed));
+    const int segments = std::max(1, static_cast<int>(std::ceil(sector / (2.0 * half))));
+    const double step = sector / segments;
+    const double far_w = std::max(0.0, apex.w - reach / space_.radius);
+    const auto at = [&](double angle, double stretch) {
+      return Uvw{apex.uv - reach * stretch * glm::dvec2(std::cos(angle), std::sin(angle)), far_w};
+    };
+    auto& triangles = cone.kind == SupportKind::kPenumbra ? out_.penumbra : out_.umbra;
+    const double stretch = 1.0 / std::cos(std::min(0.5 * step, 1.0));
+    Uvw last = at(cone.from_angle, 1.0);
+    for (int k = 0; k <= segments; ++k) {
+      const Uvw next = k < segments ? at(cone.from_angle + (k + 0.5) * step, stretch) : at(cone.to_angle, 1.0);
+      const std::uint32_t facet = 2 * k < segments ? cone.from_facet : cone.to_facet;
+      push(triangles, apex, first_ + facet);
+      push(triangles, last, first_ + facet);
+      push(triangles, next, first_ + facet);
+      last = next;
+    }
+  }
+
+  /// Cuts the segment at the near depth; false where nothing is left.
+  bool cut(Vec3& a, Vec3& b) const {
+    const double n = options_.near_depth;
+    if (a.z < n && b.z < n) return false;
+    if (a.z < n) a = b + (a - b) * ((b.z - n) / (b.z - a.z));
+    if (b.z < n) b = a + (b - a) * ((a.z - n) / (a.z - b.z));
+    return true;
+  }
+
+  void push(std::vector<EntryVertex>& triangles, const Uvw& p, std::uint32_t facet) {
+    triangles.push_back({static_cast<float>(p.uv.x), static_cast<float>(p.uv.y), static_cast<float>(p.w), facet});
+    out_.low = glm::min(out_.low, p.uv);
+    out_.high = glm::max(out_.high, p.uv);
+  }
+
+  const TriangleMesh& mesh_;
+  const LightSpace& space_;
+  const Supports& supports_;
+  const EntryGeometryOptions& options_;
+  EntryGeometry& out_;
+  std::uint32_t first_;
+};
+
+}  // namespace
+
+LightSpace::LightSpace(const DiskLight& light, double scale_factor)
+    : axes(light_frame(light)), center(light.center), scale(scale_factor), radius(light.radius * scale_factor) {}
+
+Vec3 LightSpace::to_light(const Vec3& world) const {
+  const Vec3 d = (world - center) * scale;
+  return {glm::dot(d, axes.u), glm::dot(d, axes.v), glm::dot(d, axes.w)};
+}
+
+void append_entry_geometry(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
+                           const EntryGeometryOptions& options, EntryGeometry& out) {
+  Appender(mesh, space, supports, options, out).run();
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,31 @@
+#include "render/d_buffer_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+/// Rows of the matrix are the axes.
+glm::dmat3 rows(const Vec3& right, const Vec3& up, const Vec3& forward) {
+  return glm::transpose(glm::dmat3(right, up, forward));
+}
+
+}  // namespace
+
+std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high) {
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const double widest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
+  if (!(low.x < high.x) || !(low.y < high.y)) return {};
+  if (widest <= kWidestWindow) return {{rows(x, y, z), {low.x, high.x, low.y, high.y}}};
+  // A side faces ±x or ±y with "up" along z; its lower half would look behind the light, where nothing casts.
+  const std::array<double, 4> full{-1, 1, -1, 1}, front{-1, 1, 0, 1};
+  return {{rows(x, y, z), full},
+          {rows(y, z, x), front},
+          {rows(-y, z, -x), front},
+          {rows(-x, z, y), front},
+          {rows(x, z, -y), front}};
+}
+
+}  // namespace penumbra::detail

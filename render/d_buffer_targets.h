@@ -1,0 +1,24 @@
+// Which perspectives around the light a D-buffer needs.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <vector>
+
+#include "mesh/types.h"
+
+namespace penumbra::detail {
+
+struct Target {
+  glm::dmat3 axes;               ///< light's frame → (right, up, forward)
+  std::array<double, 4> window;  ///< left, right, bottom, top at forward distance 1
+};
+
+/// Widest |x/z| or |y/z| that one perspective may have; beyond it the sides of a hemicube keep the texels even.
+inline constexpr double kWidestWindow = 2.5;
+
+/// One perspective fitted to `low`..`high` in (x/z, y/z) where that is narrow enough, else the five sides of a hemicube.
+std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high);
+
+}  // namespace penumbra::detail

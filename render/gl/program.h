@@ -1,0 +1,52 @@
+// Small owners of GL objects: programs from embedded shaders, buffers, textures. All need their context to be current.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "render/gl/functions.h"
+
+namespace penumbra::gl {
+
+/// A linked program. Shader files may name others by a line `#include "name.glsl"` (one level).
+class Program {
+ public:
+  struct Stage {
+    GLenum type;
+    std::string_view file;
+  };
+  /// Throws SystemError with the compiler's log.
+  Program(const Functions& gl, std::initializer_list<Stage> stages);
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  void use() const { gl_.UseProgram(id_); }
+  GLint uniform(const char* name) const { return gl_.GetUniformLocation(id_, name); }
+
+ private:
+  const Functions& gl_;
+  GLuint id_ = 0;
+};
+
+/// Buffer, texture, framebuffer or vertex array: made on construction, deleted with its owner.
+class Object {
+ public:
+  enum class Kind { kBuffer, kTexture, kFramebuffer, kVertexArray };
+  Object(const Functions& gl, Kind kind);
+  ~Object();
+  Object(const Object&) = delete;
+  Object& operator=(const Object&) = delete;
+  operator GLuint() const { return id_; }
+
+ private:
+  const Functions& gl_;
+  Kind kind_;
+  GLuint id_ = 0;
+};
+
+/// Throws SystemError if the current context reports an error or the bound framebuffer is incomplete.
+void require_no_error(const Functions& gl, const char* doing);
+void require_complete_framebuffer(const Functions& gl, const char* doing);
+
+}  // namespace penumbra::gl

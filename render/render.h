@@ -1,0 +1,62 @@
+// One image: scene, method and options in; channels, stage times and counts out. What `penumbra render` calls.
+//
+//   surface_buffer.h  what the camera sees          (the same points for every method)
+//   visibility        by the chosen method          (reference.h, d_buffer.h, hard shadow, none)
+//   shading.h         visibility → RGB              (the same code for every method)
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/progress.h"
+#include "render/d_buffer.h"
+#include "render/gl/context.h"
+#include "render/image.h"
+#include "render/reference.h"
+#include "render/scene.h"
+#include "render/stage_clock.h"
+#include "render/surface_buffer.h"
+
+namespace penumbra {
+
+enum class Method { kNone, kHard, kDBuffer, kReference };
+Method method_of(const std::string& name);  ///< throws UsageError that lists the names
+const char* name_of(Method method);
+std::vector<std::string> method_names();
+
+struct RenderOptions {
+  Method method = Method::kDBuffer;
+  int width = 640, height = 480;     ///< pixels
+  int threads = 0;                   ///< 0: all cores
+  int warm_up = 0;                   ///< frames rendered and thrown away before the one that is timed
+  gl::Backend backend = gl::Backend::kOsMesa;
+  ReferenceOptions reference;
+  DBufferOptions d_buffer;
+  Progress progress;
+};
+
+struct RenderResult {
+  Image image;                       ///< every channel of the README
+  SurfaceBuffer surface;
+  std::vector<StageTime> stages;     ///< in order
+  double frame_ms = 0.0;             ///< all stages that a new frame needs (no file output, no one-time set-up)
+  nlohmann::json stats;              ///< what --stats writes
+};
+
+RenderResult render(const Scene& scene, const RenderOptions& options);
+
+/// A renderer kept between frames: context, programs and the ray scene are set up once.
+class Renderer {
+ public:
+  explicit Renderer(const Scene& scene, const RenderOptions& options);
+  ~Renderer();
+  RenderResult render_frame(const RenderOptions& options);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra

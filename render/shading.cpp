@@ -1,0 +1,131 @@
+// In the light's frame, x = (X, Y, Z) and the disk of radius ρ in z = 0, Lambert's integral over the part of the rim from
+// φ0 to φ1 is -1/2 ∫ n·(r × r') / |r|² dφ with r the rim point seen from x. With ψ the angle from the direction of (X, Y)
+// the integrand is (A + B cos ψ + D sin ψ) / (E - K cos ψ): an elementary integral (`rim_part`).
+#include "render/shading.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "render/disk_area.h"
+#include "render/ray_scene_impl.h"
+
+namespace penumbra {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+struct InLightFrame {
+  Vec3 x, n;
+};
+
+InLightFrame to_light_frame(const DiskLight& light, const LightFrame& f, const Vec3& world, const Vec3& normal) {
+  const Vec3 d = world - light.center;
+  return {{glm::dot(d, f.u), glm::dot(d, f.v), glm::dot(d, f.w)},
+          {glm::dot(normal, f.u), glm::dot(normal, f.v), glm::dot(normal, f.w)}};
+}
+
+/// The rim's share between two angles, from < to.
+double rim_part(const Vec3& x, const Vec3& n, double rho, double from, double to) {
+  const double away = std::hypot(x.x, x.y);
+  const double cx = away > 0.0 ? x.x / away : 1.0, cy = away > 0.0 ? x.y / away : 0.0;
+  const double radial = n.x * cx + n.y * cy, tangential = n.y * cx - n.x * cy;
+  const double a = n.z * rho, b = x.z * radial - n.z * away, d = x.z * tangential;
+  const double e = away * away + x.z * x.z + rho * rho, k = 2.0 * rho * away;
+  const double s = std::sqrt((e - k) * (e + k)), q = k / (e + s);
+  const double turn = std::atan2(cy, cx), psi0 = from - turn, psi1 = to - turn;
+  const bool on_axis = k < 1e-12 * e;
+  const auto bend = [&](double psi) { return std::atan2(q * std::sin(psi), 1.0 - q * std::cos(psi)); };
+  const double bends = bend(psi1) - bend(psi0);
+  const double bends_by_k = on_axis ? (std::sin(psi1) - std::sin(psi0)) / (e + s) : bends / k;
+  const double lower = e - k * std::cos(psi0), rise = std::cos(psi0) - std::cos(psi1);
+  const double logarithm = on_axis ? rise / lower : std::log1p(k * rise / lower) / k;
+  const double span = psi1 - psi0;
+  const double integral = a * (span + 2.0 * bends) / s + b * (q * span + 2.0 * e * bends_by_k) / s + d * logarithm;
+  return -0.5 * rho * integral;
+}
+
+/// The share of the straight part from p to q (both relative to x).
+double chord_part(const Vec3& p, const Vec3& q, const Vec3& n) {
+  const Vec3 c = glm::cross(p, q);
+  const double size = glm::length(c);
+  return size > 0.0 ? -0.5 * glm::dot(n, c) / size * std::atan2(size, glm::dot(p, q)) : 0.0;
+}
+
+double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
+  if (x.z <= 0.0) return 0.0;
+  if (rho == 0.0) {
+    const double d2 = glm::dot(x, x);
+    return std::max(0.0, -glm::dot(n, x)) * x.z / (d2 * d2);
+  }
+  const Chord horizon = chord_of_plane(n, x, rho);
+  if (!(horizon.delta > -1.0)) return 0.0;
+  if (horizon.delta >= 1.0) return std::max(0.0, rim_part(x, n, rho, 0.0, 2.0 * kPi));
+  const double middle = std::atan2(horizon.normal.y, horizon.normal.x), reach = std::acos(-horizon.delta);
+  const auto rim = [&](double angle) { return Vec3{rho * std::cos(angle), rho * std::sin(angle), 0.0} - x; };
+  return std::max(0.0, rim_part(x, n, rho, middle - reach, middle + reach) +
+                           chord_part(rim(middle + reach), rim(middle - reach), n));
+}
+
+double horizon_in_frame(const Vec3& x, const Vec3& n, double rho) {
+  if (x.z <= 0.0) return 0.0;
+  if (rho == 0.0) return glm::dot(n, x) < 0.0 ? 1.0 : 0.0;
+  return half_plane_area(chord_of_plane(n, x, rho).delta);
+}
+
+
+}  // namespace
+
+double disk_irradiance_factor(const DiskLight& light, const Vec3& x, const Vec3& n) {
+  const InLightFrame p = to_light_frame(light, light_frame(light), x, n);
+  return factor_in_frame(p.x, p.n, light.radius);
+}
+
+double fraction_above_horizon(const DiskLight& light, const Vec3& x, const Vec3& n) {
+  const InLightFrame p = to_light_frame(light, light_frame(light), x, n);
+  return horizon_in_frame(p.x, p.n, light.radius);
+}
+
+Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility, int threads) {
+  Image image;
+  image.width = surface.width;
+  image.height = surface.height;
+  float* rgb[3] = {image.add("R").data(), image.add("G").data(), image.add("B").data()};
+  float* alpha = image.add("A").data();
+  float* seen = image.add("visibility", 1.0f).data();
+  float* region = image.add("region", -1.0f).data();
+  float* object = image.add("object", -1.0f).data();
+  float* position[3] = {image.add("P.X").data(), image.add("P.Y").data(), image.add("P.Z").data()};
+  float* normal[3] = {image.add("N.X").data(), image.add("N.Y").data(), image.add("N.Z").data()};
+  const LightFrame frame = light_frame(scene.light);
+  tbb::task_arena arena(thread_count(threads));
+  const auto shade_pixel = [&](std::size_t i) {
+    if (!surface.hit(i)) return;
+    const SceneObject& what = scene.objects[static_cast<std::size_t>(surface.object[i])];
+    const InLightFrame p = to_light_frame(scene.light, frame, surface.position[i], surface.normal[i]);
+    const double above = horizon_in_frame(p.x, p.n, scene.light.radius);
+    const double share = above > 0.0 ? std::min(1.0, static_cast<double>(visibility[i]) / above) : 0.0;
+    const Vec3 color = what.albedo / kPi * scene.radiance * (factor_in_frame(p.x, p.n, scene.light.radius) * share);
+    for (int k = 0; k < 3; ++k) {
+      rgb[k][i] = static_cast<float>(color[k]);
+      position[k][i] = static_cast<float>(surface.position[i][k]);
+      normal[k][i] = static_cast<float>(surface.normal[i][k]);
+    }
+    alpha[i] = 1.0f;
+    seen[i] = visibility[i];
+    region[i] = p.x.z <= 0.0 ? 2.0f : -1.0f;
+    object[i] = static_cast<float>(surface.object[i]);
+  };
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) shade_pixel(i);
+    });
+  });
+  return image;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,68 @@
+#include "mesh/inspect.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "mesh/shapes.h"
+#include "mesh_samples.h"
+
+namespace penumbra {
+namespace {
+
+using Json = nlohmann::json;
+
+TriangleMesh box_beside_a_repeated_triangle() {
+  const TriangleMesh box = make_box({0, 0, 0}, {1, 1, 1});
+  std::vector<Vec3> positions(box.positions().begin(), box.positions().end());
+  std::vector<IndexedTriangle> triangles(box.triangles().begin(), box.triangles().end());
+  positions.insert(positions.end(), {{5, 0, 0}, {6, 0, 0}, {5, 1, 0}});
+  triangles.insert(triangles.end(), {{8, 9, 10}, {8, 9, 10}, {8, 8, 9}});
+  return TriangleMesh::build(positions, triangles);
+}
+
+TEST(Inspect, CountsAndMeasures) {
+  const MeshFindings findings = inspect(box_beside_a_repeated_triangle());
+  EXPECT_EQ(findings.vertices, 14u);
+  EXPECT_EQ(findings.faces, 14u);
+  EXPECT_EQ(findings.edges, 24u);
+  EXPECT_EQ(findings.components, 3u);
+  EXPECT_EQ(findings.closed_components, 1u);
+  EXPECT_EQ(findings.boundary_edges, 6u);
+  EXPECT_EQ(findings.boundary_vertices, 6u);
+  EXPECT_FALSE(findings.closed);
+  EXPECT_DOUBLE_EQ(findings.signed_volume, 8.0);
+  EXPECT_DOUBLE_EQ(findings.surface_area, 25.0);
+  EXPECT_EQ(findings.bounds.high, Vec3(6, 1, 1));
+}
+
+TEST(Inspect, TextTellsWhatWasFound) {
+  const std::string text = to_text(inspect(box_beside_a_repeated_triangle()));
+  EXPECT_NE(text.find("6 boundary edges"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 faces that repeat another kept (input triangles 13)"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 degenerate faces left out (input triangles 14)"), std::string::npos) << text;
+  EXPECT_NE(to_text(inspect(make_box({0, 0, 0}, {1, 1, 1}))).find("none"), std::string::npos);
+}
+
+TEST(Inspect, JsonHasTheMembersByName) {
+  const MeshFindings findings = inspect(box_beside_a_repeated_triangle());
+  const Json json = Json::parse(to_json(findings));
+  EXPECT_EQ(json.at("faces"), 14);
+  EXPECT_EQ(json.at("closed"), false);
+  EXPECT_EQ(json.at("bounds").at("high"), Json::array({6.0, 1.0, 1.0}));
+  EXPECT_EQ(json.at("build").at("duplicates"), Json::array({13}));
+  EXPECT_EQ(json.at("build").at("degenerate"), Json::array({14}));
+  for (const char* key : {"vertices", "edges", "components", "closed_components", "boundary_edges",
+                          "boundary_vertices", "signed_volume", "surface_area"}) {
+    EXPECT_TRUE(json.at(key).is_number()) << key;
+  }
+}
+
+TEST(Inspect, EmptyMeshHasNoBounds) {
+  const MeshFindings findings = inspect(TriangleMesh());
+  EXPECT_TRUE(Json::parse(to_json(findings)).at("bounds").is_null());
+  EXPECT_NE(to_text(findings).find("empty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace penumbra

@@ -1,0 +1,175 @@
+// The guarantee of penumbra volumes: no point that is not fully lit is outside. For every caster of
+// data/scenes, half of the points are within 1e-3 of the volume's surface, half anywhere in the scene's box.
+// A tenth of the points by default; PENUMBRA_LONG=1 in the environment asks for all.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <glm/geometric.hpp>
+#include <iostream>
+
+#include "tests/volumes/scene_caster.h"
+#include "tests/volumes/shadow_oracle.h"
+#include "tests/volumes/triangle_tree.h"
+#include "volumes/volumes.h"
+
+namespace penumbra {
+namespace {
+
+constexpr std::uint64_t kSeed = 36;
+constexpr double kNearSurface = 1e-3;
+
+int point_count() {
+  return std::getenv("PENUMBRA_LONG") ? 100'000 : 10'000;
+}
+
+class ContainmentCheck {
+ public:
+  ContainmentCheck(const TriangleMesh& mesh, const DiskLight& light, const ShadowMesh& volume,
+                   const Bounds& box)
+      : random_(kSeed),
+        volume_(volume),
+        box_(box),
+        light_(light),
+        oracle_(mesh, light),
+        tree_(volume.positions, volume.triangles),
+        frame_(light_frame(light)) {
+    double sum = 0.0;
+    for (const IndexedTriangle& t : volume.triangles) {
+      const Vec3 &a = volume.positions[t[0]], &b = volume.positions[t[1]], &c = volume.positions[t[2]];
+      areas_.push_back(sum += glm::length(glm::cross(b - a, c - a)));
+    }
+  }
+
+  void run(int count) {
+    for (int i = 0; i < count; ++i) {
+      const Vec3 x = i % 2 ? near_surface() : anywhere();
+      const int winding = winding_at(x);
+      const bool shaded = oracle_.is_partly_hidden(x);
+      (i % 2 ? shaded_near_ : shaded_anywhere_) += shaded;
+      if (winding >= 1) (i % 2 ? inside_near_ : inside_anywhere_) += 1;
+      most_ = std::max(most_, winding);
+      if (shaded && winding < 1) {
+        ++outside_;
+        ADD_FAILURE() << "seed " << kSeed << ", point " << i << ": (" << x.x << ", " << x.y << ", " << x.z
+                      << ") is not fully lit but has winding number " << winding;
+        if (outside_ > 3) return;
+      }
+    }
+  }
+
+  void print(const std::string& name, double milliseconds) const {
+    const auto share = [](int part, int all) { return all > 0 ? 100.0 * (all - part) / all : 0.0; };
+    std::cout << "  " << name << ": cells " << volume_.cells << ", triangles " << volume_.triangles.size()
+              << ", built in " << milliseconds << " ms; not fully lit: " << shaded_near_ << " near, "
+              << shaded_anywhere_ << " anywhere, outside " << outside_
+              << "; inside but fully lit: " << share(shaded_near_, inside_near_) << "% near, "
+              << share(shaded_anywhere_, inside_anywhere_) << "% anywhere; greatest winding " << most_
+              << "; exact decisions " << oracle_.exact_decisions() << "\n";
+  }
+  int shaded() const { return shaded_near_ + shaded_anywhere_; }
+
+ private:
+  bool usable(const Vec3& x) const {
+    for (int k = 0; k < 3; ++k) {
+      if (x[k] < box_.low[k] || x[k] > box_.high[k]) return false;
+    }
+    return side_of_light_plane(x, light_) == Sign::kPositive;
+  }
+
+  Vec3 anywhere() {
+    for (;;) {
+      Vec3 x;
+      for (int k = 0; k < 3; ++k) x[k] = random_.uniform(box_.low[k], box_.high[k]);
+      if (usable(x)) return x;
+    }
+  }
+
+  /// A point by the surface, preferably by the outside of it: most of the surface is inside other cells.
+  Vec3 near_surface() {
+    Vec3 x = anywhere();
+    for (int attempt = 0, found = 0; attempt < 2000 && found < 8; ++attempt) {
+      const double pick = random_.uniform(0.0, areas_.back());
+      const std::size_t i = std::lower_bound(areas_.begin(), areas_.end(), pick) - areas_.begin();
+      const IndexedTriangle& t = volume_.triangles[i];
+      // Towards the near corners, since the far ones are beyond the box.
+      double u = random_.uniform(0, 1), v = random_.uniform(0, 1), w = random_.uniform(0, 1);
+      u *= u * u, v *= v * v, w *= w * w;
+      const Vec3 p =
+          (u * volume_.positions[t[0]] + v * volume_.positions[t[1]] + w * volume_.positions[t[2]]) /
+          (u + v + w);
+      const Vec3 moved = p + random_.uniform(0.0, kNearSurface) * random_.direction();
+      if (!usable(moved)) continue;
+      x = moved;
+      ++found;
+      if (winding_at(x) <= 1) break;
+    }
+    return x;
+  }
+
+  int winding_at(const Vec3& x) {
+    const Vec3 behind = light_.center - 0.5 * frame_.w;
+    return testing::winding_number(tree_, x, behind, 0.1, random_);
+  }
+
+  testing::RandomInputs random_;
+  const ShadowMesh& volume_;
+  Bounds box_;
+  DiskLight light_;
+  testing::ShadowOracle oracle_;
+  testing::TriangleTree tree_;
+  LightFrame frame_;
+  std::vector<double> areas_;
+  int shaded_near_ = 0, shaded_anywhere_ = 0, inside_near_ = 0, inside_anywhere_ = 0, outside_ = 0, most_ = 0;
+};
+
+ShadowMesh build_timed(const TriangleMesh& mesh, const DiskLight& light, const Bounds& box,
+                       double& milliseconds) {
+  VolumeOptions options;
+  options.extrude.bound_center = box.center();
+  options.extrude.bound_radius = box.radius();
+  const auto start = std::chrono::steady_clock::now();
+  ShadowMesh volume = build_shadow_volumes(mesh, light, options).penumbra;
+  milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return volume;
+}
+
+void check(const std::string& name, const TriangleMesh& mesh, const DiskLight& light, const Bounds& box,
+           int points) {
+  double milliseconds = 0.0;
+  const ShadowMesh volume = build_timed(mesh, light, box, milliseconds);
+  ASSERT_EQ(volume.guarantee, Guarantee::kContains);
+  ContainmentCheck check(mesh, light, volume, box);
+  check.run(points);
+  check.print(name, milliseconds);
+  EXPECT_GT(check.shaded(), points / 100) << "too few points in shadow to mean anything";
+}
+
+class EveryScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryScene, NoPointInShadowIsOutsideOfThePenumbraVolume) {
+  const testing::SceneCaster scene = testing::load_scene(GetParam());
+  check(scene.name, scene.mesh, scene.light, scene.scene, point_count());
+}
+
+INSTANTIATE_TEST_SUITE_P(Data, EveryScene, ::testing::ValuesIn(testing::scene_names()),
+                         [](const auto& scene) {
+                           std::string name = scene.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+/// Lights that cut through the caster or touch it: clipped triangles, distance cut-offs and half-space cells.
+TEST(PenumbraNearTheLight, ContainsTheShadowOfFacesThatCrossItsPlane) {
+  const TriangleMesh mesh =
+      testing::read_moved(std::filesystem::path(PENUMBRA_DATA) / "scenes" / "torus.off", Vec3(0.0));
+  const Bounds box = bounds_of(mesh.positions());
+  const Vec3 c = box.center();
+  for (const Vec3& at : {c, Vec3(box.high.x, c.y, c.z), Vec3(c.x, box.high.y, c.z), box.high}) {
+    check("torus and a light at " + std::to_string(at.x), mesh, DiskLight{at, {0.1, -1, 0.2}, 0.1}, box,
+          2000);
+  }
+}
+
+}  // namespace
+}  // namespace penumbra

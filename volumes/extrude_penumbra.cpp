@@ -1,0 +1,166 @@
+#include <tbb/parallel_for.h>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "mesh/error.h"
+#include "volumes/detail/convex_component.h"
+#include "volumes/detail/penumbra_cell.h"
+#include "volumes/detail/predicate_tiers.h"
+#include "volumes/extrude.h"
+
+namespace penumbra {
+
+namespace {
+
+constexpr std::size_t kCellsPerStep = 1024;  // between two calls of progress
+
+/// A convex body to be extruded: one face, or all vertices of a convex component.
+struct Body {
+  FaceId source;
+  const Component* component = nullptr;  ///< null: the face alone
+};
+
+class PenumbraExtruder {
+ public:
+  PenumbraExtruder(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
+                   const ExtrudeOptions& options)
+      : mesh_(mesh),
+        light_(light),
+        classes_(classes),
+        options_(options),
+        reach_(detail::shadow_reach(mesh, light, options)),
+        polygon_(options.cone_segments) {
+    depth_signs_.reserve(mesh.positions().size());
+    for (const Vec3& p : mesh.positions()) depth_signs_.push_back(side_of_light_plane(p, light));
+  }
+
+  ShadowMesh run() {
+    const std::vector<Body> bodies = choose_bodies();
+    ShadowMesh result;
+    result.guarantee = Guarantee::kContains;
+    std::vector<detail::Cell> cells;
+    for (std::size_t begin = 0; begin < bodies.size(); begin += kCellsPerStep) {
+      const std::size_t end = std::min(bodies.size(), begin + kCellsPerStep);
+      cells.assign(end - begin, {});
+      tbb::parallel_for(begin, end, [&](std::size_t i) { cells[i - begin] = cell_of(bodies[i]); });
+      for (std::size_t i = begin; i < end; ++i) append(cells[i - begin], bodies[i].source, result);
+      report(end, bodies.size());
+    }
+    return result;
+  }
+
+ private:
+  bool in_front(const IndexedTriangle& t) const {
+    return std::all_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return depth_signs_[v] == Sign::kPositive; });
+  }
+  bool reaches_front(const IndexedTriangle& t) const {
+    return std::any_of(t.begin(), t.end(),
+                       [&](std::uint32_t v) { return depth_signs_[v] == Sign::kPositive; });
+  }
+  const IndexedTriangle& triangle(FaceId f) const { return mesh_.triangles()[index(f)]; }
+
+  std::vector<Body> choose_bodies() const {
+    std::vector<Body> bodies;
+    for (const Component& component : mesh_.components()) {
+      const bool front = std::all_of(component.faces.begin(), component.faces.end(),
+                                     [&](FaceId f) { return in_front(triangle(f)); });
+      const bool solid = front && component.closed && component.signed_volume > 0.0;
+      if (solid && options_.split_convex && detail::is_convex(mesh_, component)) {
+        bodies.push_back({component.faces.front(), &component});
+        continue;
+      }
+      for (const FaceId f : component.faces) {
+        if (casts_alone(f, solid && options_.assume_solid)) bodies.push_back({f});
+      }
+    }
+    return bodies;
+  }
+
+  /// A solid in front of the light needs no cells for faces that look away from the whole disk. Let x be
+  /// shaded from p, a point of the disk outside of the solid. Going from x to p, the winding number of the
+  /// surface changes somewhere and is 0 in the end; so if it is not negative at x, it falls somewhere, and
+  /// where it falls the path leaves through a face that looks at p. The same path proves that the cells hold
+  /// the solid itself: from inside it falls too.
+  bool casts_alone(FaceId f, bool solid) const {
+    if (solid && classes_.faces[index(f)] == FaceClass::kNoneFront) return false;
+    const IndexedTriangle& t = triangle(f);
+    if (!reaches_front(t)) return false;
+    const std::span<const Vec3> p = mesh_.positions();
+    return !detail::collinear(p[t[0]], p[t[1]], p[t[2]]);
+  }
+
+  detail::Cell cell_of(const Body& body) const {
+    return detail::make_penumbra_cell(
+        body.component ? corners_of(*body.component) : corners_in_front(body.source), reach_, polygon_);
+  }
+
+  std::vector<Vec3> corners_of(const Component& component) const {
+    std::vector<std::uint32_t> vertices;
+    for (const FaceId f : component.faces) {
+      for (const std::uint32_t v : triangle(f)) vertices.push_back(v);
+    }
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::vector<Vec3> corners;
+    for (const std::uint32_t v : vertices) corners.push_back(mesh_.positions()[v]);
+    return corners;
+  }
+
+  /// The part of a face with depth ≥ 0. Where an edge crosses the light's plane the cut is made a hair behind
+  /// it.
+  std::vector<Vec3> corners_in_front(FaceId f) const {
+    constexpr double kBehind = 1e-12;
+    const IndexedTriangle& t = triangle(f);
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 3; ++i) {
+      const std::uint32_t v = t[i], w = t[(i + 1) % 3];
+      const Vec3 &p = mesh_.positions()[v], &q = mesh_.positions()[w];
+      if (depth_signs_[v] != Sign::kNegative) corners.push_back(p);
+      const bool crosses = depth_signs_[v] != Sign::kZero && depth_signs_[w] != Sign::kZero &&
+                           depth_signs_[v] != depth_signs_[w];
+      if (!crosses) continue;
+      const bool leaves = depth_signs_[v] == Sign::kPositive;
+      const Vec3 &front = leaves ? p : q, &back = leaves ? q : p;
+      const double above = std::abs(reach_.depth(front)), below = std::abs(reach_.depth(back));
+      const double s = std::min(1.0, above / (above + below) + kBehind);
+      corners.push_back(front + s * (back - front));
+    }
+    return corners;
+  }
+
+  void append(const detail::Cell& cell, FaceId source, ShadowMesh& out) const {
+    if (cell.triangles.empty()) return;
+    const auto first = static_cast<std::uint32_t>(out.positions.size());
+    out.positions.insert(out.positions.end(), cell.positions.begin(), cell.positions.end());
+    for (std::size_t i = 0; i < cell.triangles.size(); ++i) {
+      const IndexedTriangle& t = cell.triangles[i];
+      out.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      out.tags.push_back({cell.kinds[i], static_cast<std::uint32_t>(index(source)), options_.object});
+    }
+    ++out.cells;
+  }
+
+  void report(std::size_t done, std::size_t all) const {
+    if (options_.progress && !options_.progress(static_cast<double>(done) / static_cast<double>(all)))
+      throw Cancelled();
+  }
+
+  const TriangleMesh& mesh_;
+  const DiskLight& light_;
+  const Classification& classes_;
+  const ExtrudeOptions& options_;
+  detail::ShadowReach reach_;
+  detail::UnitPolygon polygon_;
+  std::vector<Sign> depth_signs_;  ///< per vertex: before, in, or behind the light's plane
+};
+
+}  // namespace
+
+ShadowMesh extrude_penumbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
+                            const ExtrudeOptions& options) {
+  return PenumbraExtruder(mesh, light, classes, options).run();
+}
+
+}  // namespace penumbra

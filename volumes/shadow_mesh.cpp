@@ -1,0 +1,144 @@
+#include "volumes/shadow_mesh.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <ostream>
+
+#include "mesh/error.h"
+#include "mesh/write_file.h"
+
+namespace penumbra {
+
+namespace {
+
+/// Collects bytes, least significant first.
+class LittleEndianBuffer {
+ public:
+  template <class T>
+  void put(T value) {
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes, bytes + sizeof(T));
+    bytes_.append(bytes, sizeof(T));
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+void write_ply(std::ostream& out, const ShadowMesh& mesh) {
+  out << "ply\nformat binary_little_endian 1.0\ncomment guarantee " << name_of(mesh.guarantee)
+      << "\nelement vertex " << mesh.positions.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << mesh.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nproperty uchar kind\nproperty int source\nproperty int "
+         "object\n"
+         "end_header\n";
+  LittleEndianBuffer buffer;
+  for (const Vec3& p : mesh.positions) {
+    buffer.put(p.x);
+    buffer.put(p.y);
+    buffer.put(p.z);
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    buffer.put(std::uint8_t{3});
+    for (const std::uint32_t v : mesh.triangles[i]) buffer.put(static_cast<std::int32_t>(v));
+    buffer.put(static_cast<std::uint8_t>(mesh.tags[i].kind));
+    buffer.put(static_cast<std::int32_t>(mesh.tags[i].source));
+    buffer.put(static_cast<std::int32_t>(mesh.tags[i].object));
+  }
+  out.write(buffer.bytes().data(), static_cast<std::streamsize>(buffer.bytes().size()));
+}
+
+void write_obj(std::ostream& out, const ShadowMesh& mesh) {
+  out << "# guarantee " << name_of(mesh.guarantee) << "\n";
+  char line[128];
+  for (const Vec3& p : mesh.positions) {
+    std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p.x, p.y, p.z);
+    out << line;
+  }
+  std::map<std::pair<std::uint32_t, ShadowKind>, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    groups[{mesh.tags[i].object, mesh.tags[i].kind}].push_back(i);
+  for (const auto& [key, triangles] : groups) {
+    out << "g object_" << key.first << "_" << name_of(key.second) << "\n";
+    for (const std::size_t i : triangles) {
+      const IndexedTriangle& t = mesh.triangles[i];
+      out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+    }
+  }
+}
+
+/// What still holds of the union of two volumes. A union of umbras lies in the umbra of both casters
+/// together, but is not all of it; a union of penumbra volumes contains the penumbra of both.
+Guarantee of_union(Guarantee a, Guarantee b) {
+  const auto is_umbra = [](Guarantee g) { return g == Guarantee::kExact || g == Guarantee::kContained; };
+  if (is_umbra(a) && is_umbra(b)) return Guarantee::kContained;
+  return a == b ? a : Guarantee::kNone;
+}
+
+}  // namespace
+
+const char* name_of(ShadowKind kind) {
+  switch (kind) {
+    case ShadowKind::kPenumbraFacet:
+      return "penumbra_facet";
+    case ShadowKind::kPenumbraCone:
+      return "penumbra_cone";
+    case ShadowKind::kUmbraFacet:
+      return "umbra_facet";
+    case ShadowKind::kUmbraCap:
+      return "umbra_cap";
+    case ShadowKind::kCell:
+      return "cell";
+    case ShadowKind::kFarCap:
+      return "far_cap";
+  }
+  return "unknown";
+}
+
+const char* name_of(Guarantee guarantee) {
+  switch (guarantee) {
+    case Guarantee::kExact:
+      return "exact";
+    case Guarantee::kContained:
+      return "contained";
+    case Guarantee::kContains:
+      return "contains";
+    case Guarantee::kNone:
+      return "none";
+  }
+  return "unknown";
+}
+
+ShadowMesh merge(std::span<const ShadowMesh> parts) {
+  ShadowMesh result;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const ShadowMesh& part = parts[i];
+    result.guarantee = i == 0 ? part.guarantee : of_union(result.guarantee, part.guarantee);
+    const auto first = static_cast<std::uint32_t>(result.positions.size());
+    result.positions.insert(result.positions.end(), part.positions.begin(), part.positions.end());
+    for (const IndexedTriangle& t : part.triangles)
+      result.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    result.tags.insert(result.tags.end(), part.tags.begin(), part.tags.end());
+    result.cells += part.cells;
+  }
+  return result;
+}
+
+void write_shadow_mesh(const std::filesystem::path& path, const ShadowMesh& mesh) {
+  const std::string extension = path.extension().string();
+  if (extension == ".ply" || path == "-") {
+    write_file(path, [&](std::ostream& out) { write_ply(out, mesh); });
+  } else if (extension == ".obj") {
+    write_file(path, [&](std::ostream& out) { write_obj(out, mesh); });
+  } else {
+    throw UsageError(path.string() +
+                     ": shadow meshes are written as .ply or .obj; choose one of these extensions");
+  }
+}
+
+}  // namespace penumbra

@@ -1,0 +1,58 @@
+// What extrusion produces: an indexed triangle mesh whose triangles say where they come from.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/types.h"
+
+namespace penumbra {
+
+enum class ShadowKind : std::uint8_t {
+  kPenumbraFacet,  ///< plane through an edge with caster and light on opposite sides; source: edge
+  kPenumbraCone,   ///< chorded or circumscribed cone at a vertex; source: vertex
+  kUmbraFacet,     ///< plane through an edge with caster and light on the same side; source: edge
+  kUmbraCap,       ///< part of a caster's face that bounds its umbra; source: face
+  kCell,    ///< boundary of a penumbra cell; source: the face, or the first face of the component, it belongs
+            ///< to
+  kFarCap,  ///< where a volume is cut off beyond the scene's bound; source as for kCell
+};
+const char* name_of(ShadowKind kind);
+
+struct ShadowTag {
+  ShadowKind kind;
+  std::uint32_t source;      ///< edge, vertex or face index in the caster's mesh, by kind
+  std::uint32_t object = 0;  ///< scene index of the caster
+};
+
+/// How an umbra volume relates to {O = 0}, or a penumbra volume to {O < 1}.
+enum class Guarantee : std::uint8_t {
+  kExact,      ///< umbra: equal to {O = 0} of this caster, up to rounding
+  kContained,  ///< umbra: inside {O = 0}; perhaps empty
+  kContains,   ///< penumbra: {O < 1} is inside it
+  kNone,       ///< sheets: a set of facets, not a volume
+};
+const char* name_of(Guarantee guarantee);
+
+struct ShadowMesh {
+  std::vector<Vec3> positions;
+  std::vector<IndexedTriangle>
+      triangles;                ///< volumes: oriented outward, every half-edge matched by its opposite
+  std::vector<ShadowTag> tags;  ///< one per triangle
+  Guarantee guarantee = Guarantee::kNone;
+  std::size_t cells = 0;  ///< volumes: number of convex pieces
+};
+
+/// Joins meshes, keeping tags (object numbers must be set already). The guarantee is what holds of the union
+/// against the casters together: several umbras are `kContained` even if each is exact, penumbras stay
+/// `kContains`.
+ShadowMesh merge(std::span<const ShadowMesh> parts);
+
+/// PLY (binary little endian, doubles; face properties kind, source, object) or OBJ (one group per object and
+/// kind), by extension. Whole or not at all (write_file.h). Throws UsageError for another extension.
+void write_shadow_mesh(const std::filesystem::path& path, const ShadowMesh& mesh);
+
+}  // namespace penumbra

@@ -1,0 +1,61 @@
+// Pipeline step 2½: where shadow boundaries touch the caster. Edges whose tangent plane to the disk supports
+// the caster locally, and the sectors of cones by which boundaries go round vertices.
+//
+// In: mesh, light, silhouettes. Out: facets and cone sectors, in terms of mesh elements and rim angles. Both
+// the sheets (extrude.h) and the D-buffer are made of them.
+//
+// "Umbra and penumbra volumes" (2004), section 2.1, with its rule for which edges carry facets replaced:
+// "all-frontfacing beside one that is not" misses edges between two mixed faces. Here an edge carries a facet
+// for each of its two tangent planes that has both opposite vertices on one side; the disk on the other side
+// makes it a penumbra facet, on the same side an umbra facet. That is local and necessary (exact for convex
+// casters), not sufficient.
+#pragma once
+
+#include <vector>
+
+#include "mesh/vertex_rings.h"
+#include "volumes/silhouette.h"
+
+namespace penumbra {
+
+enum class SupportKind : std::uint8_t {
+  kPenumbra,  ///< entering it, the first of the light disappears
+  kUmbra,     ///< leaving it, the first of the light appears
+};
+
+inline constexpr std::uint32_t kNoFacet = 0xffffffffu;
+
+struct SupportFacet {
+  EdgeId edge;
+  SupportKind kind;
+  bool
+      flipped;  ///< runs to → from instead of from → to; directed so that of the plane through a receiver x
+                ///< beyond it and the edge a → b, with normal (a - x) × (b - a), the lit side is the positive
+  double rim_angle;  ///< contact with the disk: center + radius (cos·u + sin·v), radians in [0, 2π)
+  std::uint32_t previous = kNoFacet, next = kNoFacet;  ///< facets of the same kind that end at a, begin at b
+};
+
+/// Part of the cone over the disk with its apex at a vertex, between the contacts of two facets.
+struct ConeSector {
+  VertexId vertex;
+  SupportKind kind;
+  double from_angle, to_angle;  ///< rim angles, from < to ≤ from + 2π
+  std::uint32_t from_facet, to_facet;
+};
+
+struct Supports {
+  std::vector<SupportFacet> facets;  ///< in order of edge, then angle
+  std::vector<ConeSector> cones;     ///< in order of vertex, then angle
+};
+
+/// Decided in double with the light's own frame (this is geometry to draw, not topology): a facet within
+/// rounding of being supported may be in or out. Only edges in front of the light's plane count; an edge that
+/// crosses the plane counts with its part in front. Cost O(band · ring).
+Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+                       const Silhouettes& silhouettes);
+
+/// Rim angles of the two planes through the line ab that touch the disk of radius r in z = 0 about the origin
+/// (light's frame); false where the line crosses the open disk or lies in its plane.
+bool tangent_angles(const Vec3& a, const Vec3& b, double r, double angles[2]);
+
+}  // namespace penumbra
