@@ -16,8 +16,8 @@ void add_reference_options(CLI::App& command, ReferenceOptions& options) {
 void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
   CLI::App& group =
       *command.add_option_group("Method dbuffer", "what the light's centre sees of the penumbra (OpenGL)");
-  group.add_option("--dbuffer-size", options.size, "Texels a side of the D-buffer; 0: 1024")
-      ->check(CLI::Range(0, 16'384))
+  group.add_option("--dbuffer-size", options.size, "Texels a side of the D-buffer, 16 to 8192")
+      ->check(CLI::Range(16, 8'192))
       ->capture_default_str();
 }
 

@@ -51,9 +51,14 @@ struct Layer {
 
 struct Buffers {
   Buffers(const gl::Functions& gl, int size_, int count_)
-      : size(size_), count(count_), occluder(gl, size_, count_), penumbra(gl, size_, count_), umbra(gl, size_, count_) {}
+      : size(size_), count(count_), occluder(gl, size_, count_), last(gl, GL_DEPTH_COMPONENT32F, size_, count_),
+        penumbra(gl, size_, count_), umbra_above(gl, size_, count_), umbra_below(gl, size_, count_) {}
   int size, count;
-  Layer occluder, penumbra, umbra;
+  Layer occluder;     ///< the first surface
+  Layers last;        ///< depth of the last surface that faces the light's center
+  Layer penumbra;     ///< nearest penumbra entry in front of the first surface
+  Layer umbra_above;  ///< nearest umbra entry in front of the last surface
+  Layer umbra_below;  ///< nearest umbra entry behind the last surface
 };
 
 glm::mat3 light_matrix(const LightFrame& axes) {
@@ -82,9 +87,11 @@ struct DBuffer::Impl {
   void caster_window(const detail::LightSpace& space, double far_weight, glm::dvec2& low, glm::dvec2& high) const;
   double far_weight(const detail::LightSpace& space) const;
   void upload(const Plan& plan);
+  void draw_casters(std::size_t target, const Plan& plan, bool cull);
   void draw_occluders(const Plan& plan);
+  enum class Against { kFirst, kLast, kBehindLast };
   void draw_entries(const Plan& plan, const Layer& layer, const std::vector<detail::EntryVertex>& triangles,
-                    const Object& vertices, bool keep_depth);
+                    const Object& vertices, Against against);
   std::vector<float> shade(const Plan& plan);
 
   void set_target(const gl::Program& program, const detail::Target& target) const;
@@ -99,7 +106,7 @@ struct DBuffer::Impl {
   double scale;
   std::vector<Caster> casters;
 
-  gl::Program occluder_program, entry_program, visibility_program;
+  gl::Program occluder_program, entry_program, behind_program, visibility_program;
   Object caster_points, caster_indices, caster_array, penumbra_vertices, umbra_vertices, entry_array, empty_array,
       record_buffer, record_texture, framebuffer;
   std::unique_ptr<Buffers> buffers;
@@ -113,6 +120,8 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_)
       occluder_program(gl, {{GL_VERTEX_SHADER, "d_buffer_occluder.vert.glsl"},
                             {GL_FRAGMENT_SHADER, "d_buffer_occluder.frag.glsl"}}),
       entry_program(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"}, {GL_FRAGMENT_SHADER, "d_buffer_entry.frag.glsl"}}),
+      behind_program(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"},
+                          {GL_FRAGMENT_SHADER, "d_buffer_entry_behind.frag.glsl"}}),
       visibility_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
                               {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}}),
       caster_points(gl, Object::Kind::kBuffer), caster_indices(gl, Object::Kind::kBuffer),
@@ -282,47 +291,71 @@ void DBuffer::Impl::attach(const Layer& layer, int index) const {
   gl.DrawBuffers(1, &color);
 }
 
+/// `cull`: only faces towards the light's center, where a caster has an inside.
+void DBuffer::Impl::draw_casters(std::size_t target, const Plan& plan, bool cull) {
+  set_target(occluder_program, plan.targets[target]);
+  for (const Caster& caster : casters) {
+    if (cull && caster.mesh->is_closed()) gl.Enable(GL_CULL_FACE);
+    gl.Uniform1ui(occluder_program.uniform("first_face"), caster.first_face);
+    const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) * 4);
+    gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * caster.mesh->triangles().size()), GL_UNSIGNED_INT, first);
+    gl.Disable(GL_CULL_FACE);
+  }
+}
+
+/// First surface of all; then the last of those that face the light's center.
 void DBuffer::Impl::draw_occluders(const Plan& plan) {
   occluder_program.use();
   set_light(occluder_program, plan);
   gl.BindVertexArray(caster_array);
   gl.Enable(GL_CLIP_DISTANCE0);
+  gl.CullFace(GL_FRONT);  // targets look along right × up, which turns windings over
   const GLuint none[4] = {0, 0, 0, 0};
-  const float farthest = 0.0f;
+  const float farthest = 0.0f, nearest = 1.0f;
   for (std::size_t i = 0; i < plan.targets.size(); ++i) {
     attach(buffers->occluder, static_cast<int>(i));
     gl.ClearBufferuiv(GL_COLOR, 0, none);
     gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
-    set_target(occluder_program, plan.targets[i]);
-    for (const Caster& caster : casters) {
-      gl.Uniform1ui(occluder_program.uniform("first_face"), caster.first_face);
-      const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) * 4);
-      gl.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * caster.mesh->triangles().size()), GL_UNSIGNED_INT, first);
-    }
+    draw_casters(i, plan, false);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    gl.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, buffers->last.texture, 0, static_cast<int>(i));
+    gl.ClearBufferfv(GL_DEPTH, 0, &nearest);
+    gl.DepthFunc(GL_LESS);
+    draw_casters(i, plan, true);
+    gl.DepthFunc(GL_GREATER);
   }
   gl.Disable(GL_CLIP_DISTANCE0);
 }
 
-/// `keep_depth`: the layer starts with the occluders' depth, so that entries behind an occluder lose.
 void DBuffer::Impl::draw_entries(const Plan& plan, const Layer& layer, const std::vector<detail::EntryVertex>& triangles,
-                                 const Object& vertices, bool keep_depth) {
-  entry_program.use();
+                                 const Object& vertices, Against against) {
+  const gl::Program& program = against == Against::kBehindLast ? behind_program : entry_program;
+  program.use();
   gl.BindVertexArray(entry_array);
   gl.BindBuffer(GL_ARRAY_BUFFER, vertices);
   gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(detail::EntryVertex), nullptr);
   gl.VertexAttribIPointer(1, 1, GL_UNSIGNED_INT, sizeof(detail::EntryVertex), reinterpret_cast<const void*>(12));
   gl.EnableVertexAttribArray(0);
   gl.EnableVertexAttribArray(1);
-  if (keep_depth)
-    gl.CopyImageSubData(buffers->occluder.depth.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, layer.depth.texture,
-                        GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, buffers->size, buffers->size, buffers->count);
   const GLuint none[4] = {0, 0, 0, 0};
   const float farthest = 0.0f;
+  // A layer that starts with a surface's depth keeps only entries in front of it.
+  if (against != Against::kBehindLast) {
+    const GLuint from = against == Against::kFirst ? buffers->occluder.depth.texture : buffers->last.texture;
+    gl.CopyImageSubData(from, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, layer.depth.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0,
+                        buffers->size, buffers->size, buffers->count);
+  } else {
+    bind(0, GL_TEXTURE_2D_ARRAY, buffers->last.texture);
+    gl.Uniform1i(program.uniform("last_depth"), 0);
+  }
   for (std::size_t i = 0; i < plan.targets.size(); ++i) {
     attach(layer, static_cast<int>(i));
     gl.ClearBufferuiv(GL_COLOR, 0, none);
-    if (!keep_depth) gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
-    set_target(entry_program, plan.targets[i]);
+    if (against == Against::kBehindLast) {
+      gl.ClearBufferfv(GL_DEPTH, 0, &farthest);
+      gl.Uniform1i(program.uniform("layer"), static_cast<int>(i));
+    }
+    set_target(program, plan.targets[i]);
     gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(triangles.size()));
   }
 }
@@ -364,8 +397,11 @@ std::vector<float> DBuffer::Impl::shade(const Plan& plan) {
                               {"occluder_depth", GL_TEXTURE_2D_ARRAY, buffers->occluder.depth.texture},
                               {"penumbra_facet", GL_TEXTURE_2D_ARRAY, buffers->penumbra.id.texture},
                               {"penumbra_depth", GL_TEXTURE_2D_ARRAY, buffers->penumbra.depth.texture},
-                              {"umbra_facet", GL_TEXTURE_2D_ARRAY, buffers->umbra.id.texture},
-                              {"umbra_depth", GL_TEXTURE_2D_ARRAY, buffers->umbra.depth.texture},
+                              {"last_depth", GL_TEXTURE_2D_ARRAY, buffers->last.texture},
+                              {"above_facet", GL_TEXTURE_2D_ARRAY, buffers->umbra_above.id.texture},
+                              {"above_depth", GL_TEXTURE_2D_ARRAY, buffers->umbra_above.depth.texture},
+                              {"below_facet", GL_TEXTURE_2D_ARRAY, buffers->umbra_below.id.texture},
+                              {"below_depth", GL_TEXTURE_2D_ARRAY, buffers->umbra_below.depth.texture},
                               {"records", GL_TEXTURE_BUFFER, record_texture}};
   int unit = 0;
   for (const Binding& b : bindings) {
@@ -405,8 +441,9 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   gl::require_complete_framebuffer(gl, "drawing the D-buffer");
   gl.Finish();
   clock.finish("occluders");
-  draw_entries(plan, buffers->penumbra, plan.geometry.penumbra, penumbra_vertices, true);
-  draw_entries(plan, buffers->umbra, plan.geometry.umbra, umbra_vertices, false);
+  draw_entries(plan, buffers->penumbra, plan.geometry.penumbra, penumbra_vertices, Against::kFirst);
+  draw_entries(plan, buffers->umbra_above, plan.geometry.umbra, umbra_vertices, Against::kLast);
+  draw_entries(plan, buffers->umbra_below, plan.geometry.umbra, umbra_vertices, Against::kBehindLast);
   gl.Finish();
   clock.finish("entries");
   frame.visibility = shade(plan);

@@ -27,6 +27,7 @@ using ProcLoader = void* (*)(const char* name);
   X(ColorMask, PFNGLCOLORMASKPROC)                                                                                    \
   X(CompileShader, PFNGLCOMPILESHADERPROC)                                                                            \
   X(CopyImageSubData, PFNGLCOPYIMAGESUBDATAPROC)                                                                       \
+  X(CullFace, PFNGLCULLFACEPROC)                                                                                       \
   X(CreateProgram, PFNGLCREATEPROGRAMPROC)                                                                            \
   X(CreateShader, PFNGLCREATESHADERPROC)                                                                              \
   X(DeleteBuffers, PFNGLDELETEBUFFERSPROC)                                                                            \

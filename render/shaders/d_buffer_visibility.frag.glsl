@@ -13,8 +13,11 @@ uniform usampler2DArray occluder_face;
 uniform sampler2DArray occluder_depth;
 uniform usampler2DArray penumbra_facet;
 uniform sampler2DArray penumbra_depth;
-uniform usampler2DArray umbra_facet;
-uniform sampler2DArray umbra_depth;
+uniform sampler2DArray last_depth;
+uniform usampler2DArray above_facet;  // umbra entries in front of the last surface
+uniform sampler2DArray above_depth;
+uniform usampler2DArray below_facet;  // and behind it
+uniform sampler2DArray below_depth;
 uniform samplerBuffer records;        // four points a facet: previous, a, b, next
 
 uniform mat3 light_axes;
@@ -113,24 +116,31 @@ bool occluded(Receiver r, Texel t) {
   return weight_of(occluder_depth, t) > r.weight + bias;
 }
 
+float by_layer(usampler2DArray facets, sampler2DArray depth, Receiver r, Texel t, Chord horizon) {
+  uint facet = texelFetch(facets, t.at, 0).r;
+  float slack = t.size / radius;  // what a texel's width is worth on a boundary's slope
+  if (facet == kEmpty || r.weight > weight_of(depth, t) + slack) return -1.0;
+  return entry_visibility(facet - 1u, r, horizon);
+}
+
 float visibility_of(Receiver r) {
   Chord horizon = chord_of_plane(r.n, r.x, radius);
   float open = half_plane_area(horizon.delta);
   if (open == 0.0) return 0.0;
   Texel t = texel_of(r.x);
   if (t.at.z < 0) return open;
-  float slack = t.size / radius;
-  uint facet = texelFetch(penumbra_facet, t.at, 0).r;
-  if (facet != kEmpty && r.weight < weight_of(penumbra_depth, t) + slack) {
-    float v = entry_visibility(facet - 1u, r, horizon);
+  // The light's center decides which boundaries matter: those of the penumbra where it is seen, else those of the umbra.
+  bool hidden = occluded(r, t);
+  if (!hidden) {
+    float v = by_layer(penumbra_facet, penumbra_depth, r, t, horizon);
     if (v >= 0.0) return v;
+    if (horizon.delta > 0.0) return open;
   }
-  facet = texelFetch(umbra_facet, t.at, 0).r;
-  if (facet != kEmpty && r.weight < weight_of(umbra_depth, t) + slack) {
-    float v = entry_visibility(facet - 1u, r, horizon);
-    if (v >= 0.0) return v;
-  }
-  return occluded(r, t) ? 0.0 : open;
+  bool behind_last = r.weight < weight_of(last_depth, t) * (1.0 - 1e-3);
+  float v = behind_last ? by_layer(below_facet, below_depth, r, t, horizon)
+                        : by_layer(above_facet, above_depth, r, t, horizon);
+  if (v >= 0.0) return v;
+  return hidden ? 0.0 : open;
 }
 
 void main() {

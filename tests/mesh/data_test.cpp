@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, DataMesh,
                                          Expected{"scenes/torus.off", 576, 1, 1, 0, 0, 0},
                                          Expected{"scenes/triangle.off", 1, 1, 0, 3, 0, 0}));
 
-/// Every file there once went wrong: it is now a mesh or a clear error, as its name says.
+/// Each file there is a mesh or a clear error, as its name says.
 TEST(RegressionMeshes, AreMeshesOrErrors) {
   std::size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kData / "regressions" / "meshes")) {

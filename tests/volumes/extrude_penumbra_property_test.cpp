@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <iostream>
 
+#include "tests/volumes/convex_pieces.h"
 #include "tests/volumes/scene_caster.h"
 #include "tests/volumes/shadow_oracle.h"
-#include "tests/volumes/triangle_tree.h"
 #include "volumes/volumes.h"
 
 namespace penumbra {
@@ -32,8 +32,9 @@ class ContainmentCheck {
         box_(box),
         light_(light),
         oracle_(mesh, light),
-        tree_(volume.positions, volume.triangles),
-        frame_(light_frame(light)) {
+        pieces_(volume.positions, volume.triangles) {
+    EXPECT_EQ(pieces_.size(), volume.cells);
+    EXPECT_TRUE(pieces_.all_convex_and_closed());
     double sum = 0.0;
     for (const IndexedTriangle& t : volume.triangles) {
       const Vec3 &a = volume.positions[t[0]], &b = volume.positions[t[1]], &c = volume.positions[t[2]];
@@ -44,11 +45,11 @@ class ContainmentCheck {
   void run(int count) {
     for (int i = 0; i < count; ++i) {
       const Vec3 x = i % 2 ? near_surface() : anywhere();
-      const int winding = winding_at(x);
+      const int winding = pieces_.winding_number(x, 1);
       const bool shaded = oracle_.is_partly_hidden(x);
       (i % 2 ? shaded_near_ : shaded_anywhere_) += shaded;
       if (winding >= 1) (i % 2 ? inside_near_ : inside_anywhere_) += 1;
-      most_ = std::max(most_, winding);
+      if (i % 100 == 0) most_ = std::max(most_, pieces_.winding_number(x));
       if (shaded && winding < 1) {
         ++outside_;
         ADD_FAILURE() << "seed " << kSeed << ", point " << i << ": (" << x.x << ", " << x.y << ", " << x.z
@@ -102,14 +103,9 @@ class ContainmentCheck {
       if (!usable(moved)) continue;
       x = moved;
       ++found;
-      if (winding_at(x) <= 1) break;
+      if (pieces_.winding_number(x, 2) <= 1) break;
     }
     return x;
-  }
-
-  int winding_at(const Vec3& x) {
-    const Vec3 behind = light_.center - 0.5 * frame_.w;
-    return testing::winding_number(tree_, x, behind, 0.1, random_);
   }
 
   testing::RandomInputs random_;
@@ -117,8 +113,7 @@ class ContainmentCheck {
   Bounds box_;
   DiskLight light_;
   testing::ShadowOracle oracle_;
-  testing::TriangleTree tree_;
-  LightFrame frame_;
+  testing::ConvexPieces pieces_;
   std::vector<double> areas_;
   int shaded_near_ = 0, shaded_anywhere_ = 0, inside_near_ = 0, inside_anywhere_ = 0, outside_ = 0, most_ = 0;
 };
