@@ -153,10 +153,7 @@ void add_compare_command(CLI::App& app) {
       .add_option("--signed-difference", arguments->signed_difference,
                   "Write visibility of A minus B (PNG): blue too dark, red too bright")
       ->type_name("FILE");
-  command
-      .add_option("--exposure", arguments->exposure, "Stops by which the images in --picture are brighter")
-      ->check(CLI::Range(-64.0, 64.0))
-      ->capture_default_str();
+  add_exposure_option(command, arguments->exposure, "Stops by which the images in --picture are brighter");
   add_strict_option(command, arguments->scene);
   add_common_options(command, arguments->common);
   command.footer(kFooter);

@@ -6,19 +6,22 @@ namespace penumbra::apps {
 namespace {
 
 void add_reference_options(CLI::App& command, ReferenceOptions& options) {
-  CLI::App& group = *command.add_option_group("Method reference", "stratified rays to the disk (Embree)");
-  group.add_option("--samples", options.samples, "Rays a pixel, rounded up to a multiple of 16")
+  const char* group = "Method reference: stratified rays to the disk (Embree)";
+  command.add_option("--samples", options.samples, "Rays a pixel, rounded up to a multiple of 16")
       ->check(CLI::Range(1, 1 << 20))
-      ->capture_default_str();
-  group.add_option("--seed", options.seed, "Two seeds give two independent images")->capture_default_str();
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--seed", options.seed, "Two seeds give two independent images")
+      ->capture_default_str()
+      ->group(group);
 }
 
 void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
-  CLI::App& group =
-      *command.add_option_group("Method dbuffer", "what the light's centre sees of the penumbra (OpenGL)");
-  group.add_option("--dbuffer-size", options.size, "Texels a side of the D-buffer, 16 to 8192")
+  const char* group = "Method dbuffer: what the light's center sees of the penumbra (OpenGL)";
+  command.add_option("--dbuffer-size", options.size, "Texels a side of the D-buffer")
       ->check(CLI::Range(16, 8'192))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(group);
 }
 
 }  // namespace

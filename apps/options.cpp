@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "apps/messages.h"
@@ -67,6 +68,16 @@ Scene load(const SceneInput& input) {
   LoadedScene loaded = load_scene(input.path, {.strict = input.strict});
   for (const std::string& warning : loaded.warnings) complain("warning: " + warning);
   return std::move(loaded.scene);
+}
+
+void add_exposure_option(CLI::App& command, double& stops, const std::string& help) {
+  // Not CLI::Range, which lets NaN through.
+  const auto in_range = [](const std::string& text) -> std::string {
+    double value = 0.0;
+    const bool good = CLI::detail::lexical_cast(text, value) && std::abs(value) <= 64.0;
+    return good ? "" : text + " is no number of stops in [-64 - 64]";
+  };
+  command.add_option("--exposure", stops, help)->check(in_range)->capture_default_str();
 }
 
 PixelPair parse_size(const std::string& text) {

@@ -40,6 +40,9 @@ void add_scene_input(CLI::App& command, SceneInput& input);
 /// Loads the scene; warnings go to standard error.
 Scene load(const SceneInput& input);
 
+/// --exposure, in stops.
+void add_exposure_option(CLI::App& command, double& stops, const std::string& help);
+
 struct PixelPair {
   int x = 0, y = 0;
 };

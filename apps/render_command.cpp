@@ -111,9 +111,7 @@ void add_render_command(CLI::App& app) {
   command.add_option("--size", arguments->size, "Pixels, WIDTHxHEIGHT")
       ->capture_default_str()
       ->type_name("WxH");
-  command.add_option("--exposure", arguments->exposure, "Stops by which a PNG is brighter; no effect on EXR")
-      ->check(CLI::Range(-64.0, 64.0))
-      ->capture_default_str();
+  add_exposure_option(command, arguments->exposure, "Stops by which a PNG is brighter; no effect on EXR");
   command
       .add_option("--stats", arguments->stats,
                   "Write method, options, stage times and counts as JSON; - is standard output")

@@ -227,7 +227,7 @@ void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& 
   for (std::size_t i = 0; i < casters.size(); ++i) silhouettes.push_back(find_silhouettes(*casters[i].mesh, classes[i]));
   clock.finish("silhouette");
   for (std::size_t i = 0; i < casters.size(); ++i)
-    plan.supports.push_back(find_supports(*casters[i].mesh, casters[i].rings, light, silhouettes[i]));
+    plan.supports.push_back(find_supports(*casters[i].mesh, casters[i].rings, light, classes[i], silhouettes[i]));
   clock.finish("supports");
   glm::dvec2 low, high;
   const double far = far_weight(plan.space);

@@ -28,6 +28,7 @@ class Appender {
       add_facet(i);
     }
     for (const ConeSector& cone : supports_.cones) add_cone(cone);
+    for (const GapFace& gap : supports_.gaps) add_gap(gap);
   }
 
  private:
@@ -103,6 +104,18 @@ class Appender {
       push(triangles, next, first_ + facet);
       last = next;
     }
+  }
+
+  /// A face as it is; those that reach the near depth are left to the facets.
+  void add_gap(const GapFace& gap) {
+    const IndexedTriangle& t = mesh_.triangles()[index(gap.face)];
+    Uvw corners[3];
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = local(VertexId{t[static_cast<std::size_t>(k)]});
+      if (p.z <= options_.near_depth) return;
+      corners[k] = project(p);
+    }
+    for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet);
   }
 
   /// Cuts the segment at the near depth; false where nothing is left.

@@ -64,7 +64,7 @@ Camera camera_for(const Bounds& bounds) {
   const double scale = scale_of(bounds);
   const double height = bounds.high.y - bounds.low.y;
   return {.eye = foot_of(bounds) + scale * Vec3(2.6, 3.0, 4.2),
-          .target = foot_of(bounds) + Vec3(0.0, 0.35 * height, 0.0),
+          .target = foot_of(bounds) + Vec3(0.0, 0.45 * height, 0.0),
           .up = Vec3(0.0, 1.0, 0.0),
           .fov_y_degrees = 42.0};
 }
@@ -75,6 +75,7 @@ Scene scene_around(const TriangleMesh& mesh, const std::string& name) {
     throw MeshError(name + ": has no extent; a scene needs a mesh larger than a point");
   Scene scene;
   scene.light = light_for(bounds);
+  scene.radiance = Vec3(60.0);  // a PNG without --exposure is then neither dark nor clipped
   scene.camera = camera_for(bounds);
   scene.objects.push_back({.name = "floor", .mesh = floor_for(bounds), .albedo = Vec3(0.8), .casts = false});
   scene.objects.push_back({.name = name, .mesh = mesh, .albedo = Vec3(0.8, 0.7, 0.6), .casts = true});

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <tuple>
 
 namespace penumbra {
 namespace {
@@ -40,6 +41,8 @@ struct SideOfPlane {
 /// Rounding in `SideOfPlane::at`, so that coplanar neighbours count as lying on the plane.
 constexpr double kOnPlane = 1e-11;
 
+constexpr double kSharpestTurn = 0.93 * kPi;
+
 /// An end of a facet at a vertex.
 struct FacetEnd {
   VertexId vertex;
@@ -51,12 +54,14 @@ struct FacetEnd {
 
 class Finder {
  public:
-  Finder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light)
-      : mesh_(mesh), rings_(rings), frame_(light_frame(light)), center_(light.center), r_(light.radius) {}
+  Finder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light, const Classification& classes)
+      : mesh_(mesh), rings_(rings), classes_(classes), frame_(light_frame(light)), center_(light.center),
+        r_(light.radius) {}
 
   Supports run(const Silhouettes& silhouettes) {
     for (EdgeId e : silhouettes.band) add_facets(e);
     link_vertices();
+    fill_gaps();
     return std::move(out_);
   }
 
@@ -117,20 +122,21 @@ class Finder {
     }
   }
 
-  /// Each facet that arrives at the vertex goes on with the one that leaves it at the nearest angle.
+  /// Facets that arrive at the vertex go on with facets that leave it, the smallest turns first. Beyond kSharpestTurn two
+  /// ends belong to different parts of the contour (the far sides of a saddle), not to one corner.
   void link_ends(std::span<const FacetEnd> ends) {
-    for (const FacetEnd& arriving : ends) {
-      if (arriving.leaves) continue;
-      double nearest = 4.0 * kPi;
+    links_.clear();
+    for (const FacetEnd& arriving : ends)
       for (const FacetEnd& leaving : ends) {
-        if (!leaving.leaves) continue;
+        if (arriving.leaves || !leaving.leaves) continue;
         const double turn = std::abs(std::remainder(leaving.angle - arriving.angle, 2.0 * kPi));
-        if (turn >= nearest) continue;
-        nearest = turn;
-        out_.facets[arriving.facet].next = leaving.facet;
+        if (turn < kSharpestTurn) links_.push_back({turn, arriving.facet, leaving.facet});
       }
-      const std::uint32_t next = out_.facets[arriving.facet].next;
-      if (next != kNoFacet) out_.facets[next].previous = arriving.facet;
+    std::sort(links_.begin(), links_.end());
+    for (const auto& [turn, arriving, leaving] : links_) {
+      if (out_.facets[arriving].next != kNoFacet || out_.facets[leaving].previous != kNoFacet) continue;
+      out_.facets[arriving].next = leaving;
+      out_.facets[leaving].previous = arriving;
     }
   }
 
@@ -146,6 +152,30 @@ class Finder {
                                                                  : star_covers_disk_side(from.vertex, middle);
       if (supported)
         out_.cones.push_back({from.vertex, from.kind, from.angle, to_angle, from.facet, to.facet});
+    }
+  }
+
+  /// Breadth first from the umbra facets over the mixed faces turned away from the center.
+  void fill_gaps() {
+    std::vector<bool> seen(mesh_.triangles().size(), false);
+    for (std::uint32_t i = 0; i < out_.facets.size(); ++i)
+      if (out_.facets[i].kind == SupportKind::kUmbra) visit_gaps_beside(out_.facets[i].edge, i, seen);
+    for (std::size_t next = 0; next < out_.gaps.size(); ++next) {
+      const GapFace gap = out_.gaps[next];
+      for (EdgeId e : mesh_.face_edges()[index(gap.face)]) visit_gaps_beside(e, gap.facet, seen);
+    }
+  }
+
+  void visit_gaps_beside(EdgeId id, std::uint32_t facet, std::vector<bool>& seen) {
+    const Edge& e = mesh_.edges()[index(id)];
+    for (FaceId f : {e.left, e.right}) {
+      if (f == kNone<FaceId> || seen[index(f)] || classes_.faces[index(f)] != FaceClass::kMixed) continue;
+      seen[index(f)] = true;
+      const IndexedTriangle& t = mesh_.triangles()[index(f)];
+      const Vec3 a = mesh_.positions()[t[0]] - center_;
+      const Vec3 n = glm::cross(mesh_.positions()[t[1]] - mesh_.positions()[t[0]],
+                                mesh_.positions()[t[2]] - mesh_.positions()[t[0]]);
+      if (glm::dot(n, a) > 0.0) out_.gaps.push_back({f, facet});
     }
   }
 
@@ -183,7 +213,8 @@ class Finder {
     double covered = -kPi;  // the disk's side is (-π, 0)
     for (const auto& [low, high] : wedges_)
       if (low <= covered + 1e-9) covered = std::max(covered, high);
-    return covered >= -1e-9;
+    const bool covers_all = covered >= kPi - 1e-9;  // an inner vertex of the star's picture: no boundary at all
+    return covered >= -1e-9 && !covers_all;
   }
 
   /// The part of the wedge between two bearings, the short way round, that lies on the disk's side.
@@ -199,10 +230,12 @@ class Finder {
 
   const TriangleMesh& mesh_;
   const VertexRings& rings_;
+  const Classification& classes_;
   const LightFrame frame_;
   const Vec3 center_;
   const double r_;
   std::vector<FacetEnd> ends_;
+  std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> links_;
   std::vector<std::array<double, 2>> wedges_;
   Supports out_;
 };
@@ -221,8 +254,8 @@ bool tangent_angles(const Vec3& a, const Vec3& b, double r, double angles[2]) {
 }
 
 Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
-                       const Silhouettes& silhouettes) {
-  return Finder(mesh, rings, light).run(silhouettes);
+                       const Classification& classes, const Silhouettes& silhouettes) {
+  return Finder(mesh, rings, light, classes).run(silhouettes);
 }
 
 }  // namespace penumbra

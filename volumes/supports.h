@@ -43,16 +43,25 @@ struct ConeSector {
   std::uint32_t from_facet, to_facet;
 };
 
+/// A mixed face turned away from the disk's center, between the umbra silhouette and the center's own: seen from the
+/// center, no umbra facet covers it. The 2004 paper (section 3.3) calls these silhouette faces and draws them as part of the
+/// umbra volume.
+struct GapFace {
+  FaceId face;
+  std::uint32_t facet;  ///< the umbra facet nearest to it, in steps from face to face
+};
+
 struct Supports {
   std::vector<SupportFacet> facets;  ///< in order of edge, then angle
   std::vector<ConeSector> cones;     ///< in order of vertex, then angle
+  std::vector<GapFace> gaps;         ///< in order of steps, then of facet
 };
 
 /// Decided in double with the light's own frame (this is geometry to draw, not topology): a facet within
 /// rounding of being supported may be in or out. Only edges in front of the light's plane count; an edge that
 /// crosses the plane counts with its part in front. Cost O(band · ring).
 Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
-                       const Silhouettes& silhouettes);
+                       const Classification& classes, const Silhouettes& silhouettes);
 
 /// Rim angles of the two planes through the line ab that touch the disk of radius r in z = 0 about the origin
 /// (light's frame); false where the line crosses the open disk or lies in its plane.

@@ -75,7 +75,7 @@ TEST_P(BadMeshTest, VolumesOfScene) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadMeshTest, testing::ValuesIn(kBadMeshes),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& bad) { return std::string(bad.param.name); });
 
 struct BadScene {
   const char* name;
@@ -100,7 +100,7 @@ std::string with_camera(const std::string& camera) {
 const BadScene kBadScenes[] = {
     {"Empty", "", "empty"},
     {"Truncated", R"({"version":1,"lights":[)", "line 1"},
-    {"Comment", "{} // no", "comment"},
+    {"Comment", "{} // no", "line 1, column 4"},
     {"NoObject", "[]", "top level"},
     {"DepthBomb", std::string(200'000, '['), "nests"},
     {"DepthBombOfObjects",
@@ -165,7 +165,7 @@ TEST_P(BadSceneTest, IsRefusedByEveryCommand) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadSceneTest, testing::ValuesIn(kBadScenes),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& bad) { return std::string(bad.param.name); });
 
 struct BadUsage {
   const char* name;
@@ -241,7 +241,7 @@ TEST_P(BadUsageTest, IsRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadUsageTest, testing::ValuesIn(kBadUsages),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& bad) { return std::string(bad.param.name); });
 
 }  // namespace
 }  // namespace penumbra::test

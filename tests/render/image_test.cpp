@@ -122,7 +122,7 @@ using Bytes = std::vector<unsigned char>;
 TEST(Srgb, KnownValues) {
   // IEC 61966-2-1: linear 0.5 is 187.5, linear 0.0031308 is 10.3 of 255.
   EXPECT_EQ(encode_srgb(one_pixel(0.0f, 0.5f, 1.0f, 1.0f)), (Bytes{0, 188, 255}));
-  EXPECT_EQ(encode_srgb(one_pixel(0.0031308f, 0.214041f, 7.0f, 1.0f)), (Bytes{10, 128, 255}));
+  EXPECT_EQ(encode_srgb(one_pixel(0.0031308f, 0.2158605f, 7.0f, 1.0f)), (Bytes{10, 128, 255}));
 }
 
 TEST(Srgb, ExposureIsInStops) {

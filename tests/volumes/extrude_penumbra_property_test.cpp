@@ -35,11 +35,6 @@ class ContainmentCheck {
         pieces_(volume.positions, volume.triangles) {
     EXPECT_EQ(pieces_.size(), volume.cells);
     EXPECT_TRUE(pieces_.all_convex_and_closed());
-    double sum = 0.0;
-    for (const IndexedTriangle& t : volume.triangles) {
-      const Vec3 &a = volume.positions[t[0]], &b = volume.positions[t[1]], &c = volume.positions[t[2]];
-      areas_.push_back(sum += glm::length(glm::cross(b - a, c - a)));
-    }
   }
 
   void run(int count) {
@@ -49,7 +44,7 @@ class ContainmentCheck {
       const bool shaded = oracle_.is_partly_hidden(x);
       (i % 2 ? shaded_near_ : shaded_anywhere_) += shaded;
       if (winding >= 1) (i % 2 ? inside_near_ : inside_anywhere_) += 1;
-      if (i % 100 == 0) most_ = std::max(most_, pieces_.winding_number(x));
+      if (i % 100 == 0) most_ = std::max(most_, pieces_.winding_number(on_some_cell()));
       if (shaded && winding < 1) {
         ++outside_;
         ADD_FAILURE() << "seed " << kSeed << ", point " << i << ": (" << x.x << ", " << x.y << ", " << x.z
@@ -86,27 +81,41 @@ class ContainmentCheck {
     }
   }
 
-  /// A point by the surface, preferably by the outside of it: most of the surface is inside other cells.
+  /// A point by the outside of the volume: on the way from a point inside to one outside, where the winding
+  /// number becomes 0.
   Vec3 near_surface() {
-    Vec3 x = anywhere();
-    for (int attempt = 0, found = 0; attempt < 2000 && found < 8; ++attempt) {
-      const double pick = random_.uniform(0.0, areas_.back());
-      const std::size_t i = std::lower_bound(areas_.begin(), areas_.end(), pick) - areas_.begin();
-      const IndexedTriangle& t = volume_.triangles[i];
-      // Towards the near corners, since the far ones are beyond the box.
-      double u = random_.uniform(0, 1), v = random_.uniform(0, 1), w = random_.uniform(0, 1);
-      u *= u * u, v *= v * v, w *= w * w;
-      const Vec3 p =
-          (u * volume_.positions[t[0]] + v * volume_.positions[t[1]] + w * volume_.positions[t[2]]) /
-          (u + v + w);
-      const Vec3 moved = p + random_.uniform(0.0, kNearSurface) * random_.direction();
-      if (!usable(moved)) continue;
-      x = moved;
-      ++found;
-      if (pieces_.winding_number(x, 2) <= 1) break;
+    constexpr int kAttempts = 100;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      Vec3 inside = on_some_cell(), outside = anywhere();
+      if (!is_inside(inside) || is_inside(outside)) continue;
+      while (glm::length(outside - inside) > 0.1 * kNearSurface) {
+        const Vec3 middle = 0.5 * (inside + outside);
+        (is_inside(middle) ? inside : outside) = middle;
+      }
+      const Vec3 x =
+          inside + 0.9 * std::pow(random_.uniform(0.0, 1.0), 3.0) * kNearSurface * random_.direction();
+      if (usable(x)) return x;
     }
-    return x;
+    return anywhere();  // inside or outside is too rare
   }
+
+  /// A point on the surface of some cell, inside of others as a rule; towards the near corners, since the far
+  /// ones are beyond the box.
+  Vec3 on_some_cell() {
+    for (int attempt = 0; attempt < 1000; ++attempt) {
+      const std::size_t i = static_cast<std::size_t>(random_.uniform(0.0, 1.0) * volume_.triangles.size());
+      const IndexedTriangle& t = volume_.triangles[i];
+      Vec3 weights(random_.uniform(0, 1), random_.uniform(0, 1), random_.uniform(0, 1));
+      weights *= weights * weights;
+      const Vec3 p = (weights.x * volume_.positions[t[0]] + weights.y * volume_.positions[t[1]] +
+                      weights.z * volume_.positions[t[2]]) /
+                     (weights.x + weights.y + weights.z);
+      if (usable(p)) return p;
+    }
+    return anywhere();
+  }
+
+  bool is_inside(const Vec3& x) const { return pieces_.winding_number(x, 1) >= 1; }
 
   testing::RandomInputs random_;
   const ShadowMesh& volume_;
@@ -114,7 +123,6 @@ class ContainmentCheck {
   DiskLight light_;
   testing::ShadowOracle oracle_;
   testing::ConvexPieces pieces_;
-  std::vector<double> areas_;
   int shaded_near_ = 0, shaded_anywhere_ = 0, inside_near_ = 0, inside_anywhere_ = 0, outside_ = 0, most_ = 0;
 };
 
