@@ -68,7 +68,7 @@ glm::mat3 light_matrix(const LightFrame& axes) {
 }  // namespace
 
 struct DBuffer::Impl {
-  Impl(gl::Context& context_, const Scene& scene_);
+  Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_);
 
   void set_surface(const SurfaceBuffer& surface);
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
@@ -102,6 +102,7 @@ struct DBuffer::Impl {
   gl::Context& context;
   const gl::Functions& gl;
   const Scene& scene;
+  const RayScene& rays;
   Vec3 origin;   ///< scene frame: (world - origin) · scale, about the casters
   double scale;
   std::vector<Caster> casters;
@@ -115,8 +116,8 @@ struct DBuffer::Impl {
   std::unique_ptr<Object> surface_position, surface_normal, visibility_texture;
 };
 
-DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_)
-    : context(context_), gl(context_.functions()), scene(scene_),
+DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_)
+    : context(context_), gl(context_.functions()), scene(scene_), rays(rays_),
       occluder_program(gl, {{GL_VERTEX_SHADER, "d_buffer_occluder.vert.glsl"},
                             {GL_FRAGMENT_SHADER, "d_buffer_occluder.frag.glsl"}}),
       entry_program(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"}, {GL_FRAGMENT_SHADER, "d_buffer_entry.frag.glsl"}}),
@@ -129,7 +130,7 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_)
       umbra_vertices(gl, Object::Kind::kBuffer), entry_array(gl, Object::Kind::kVertexArray),
       empty_array(gl, Object::Kind::kVertexArray), record_buffer(gl, Object::Kind::kBuffer),
       record_texture(gl, Object::Kind::kTexture), framebuffer(gl, Object::Kind::kFramebuffer) {
-  scale = ray_frame(scene).scale;
+  scale = rays.frame().scale;
   const Bounds bounds = scene.caster_bounds();
   origin = bounds.empty() ? scene.light.center : bounds.center();
   std::vector<glm::vec3> points;
@@ -229,6 +230,10 @@ void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& 
   for (std::size_t i = 0; i < casters.size(); ++i)
     plan.supports.push_back(find_supports(*casters[i].mesh, casters[i].rings, light, classes[i], silhouettes[i]));
   clock.finish("supports");
+  std::vector<detail::FacetReach> reach;
+  for (std::size_t i = 0; i < casters.size(); ++i)
+    reach.push_back(detail::find_reach(*casters[i].mesh, light, plan.supports[i], rays));
+  clock.finish("reach");
   glm::dvec2 low, high;
   const double far = far_weight(plan.space);
   caster_window(plan.space, far, low, high);
@@ -238,7 +243,8 @@ void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& 
   plan.targets = detail::choose_targets(low - 2.0 * texel, high + 2.0 * texel);
   const detail::EntryGeometryOptions entry{kNearDepth, far, texel};
   for (std::size_t i = 0; i < casters.size(); ++i)
-    detail::append_entry_geometry(*casters[i].mesh, plan.space, plan.supports[i], entry, plan.geometry);
+    detail::append_entry_geometry(*casters[i].mesh, plan.space, plan.supports[i], reach[i], entry,
+                                  plan.geometry);
   clock.finish("facets");
 
   std::size_t faces = 0, mixed = 0, umbra = 0, penumbra = 0, band = 0, facets = 0, cones = 0;
@@ -453,9 +459,9 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   return frame;
 }
 
-DBuffer::DBuffer(gl::Context& context, const Scene& scene) {
+DBuffer::DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays) {
   context.make_current();
-  impl_ = std::make_unique<Impl>(context, scene);
+  impl_ = std::make_unique<Impl>(context, scene, rays);
 }
 
 DBuffer::~DBuffer() {

@@ -31,8 +31,9 @@ struct DBufferFrame {
 
 class DBuffer {
  public:
-  /// Uploads the casters. `context` must outlive the D-buffer and is made current by each call.
-  DBuffer(gl::Context& context, const Scene& scene);
+  /// Uploads the casters. `context`, `scene` and `rays` must outlive the D-buffer; the context is made current by each
+  /// call.
+  DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~DBuffer();
   void set_surface(const SurfaceBuffer& surface);
   /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.

@@ -17,18 +17,20 @@ Uvw project(const Vec3& p) { return {glm::dvec2(p.x, p.y) / p.z, 1.0 / p.z}; }
 
 class Appender {
  public:
-  Appender(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
+  Appender(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports, const FacetReach& reach,
            const EntryGeometryOptions& options, EntryGeometry& out)
-      : mesh_(mesh), space_(space), supports_(supports), options_(options), out_(out),
+      : mesh_(mesh), space_(space), supports_(supports), reach_(reach), options_(options), out_(out),
         first_(static_cast<std::uint32_t>(out.records.size() / 4)) {}
 
   void run() {
     for (std::uint32_t i = 0; i < supports_.facets.size(); ++i) {
       add_record(supports_.facets[i]);
-      add_facet(i);
+      if (reach_.facets[i] > 0.0f) add_facet(i);
     }
-    for (const ConeSector& cone : supports_.cones) add_cone(cone);
-    for (const GapFace& gap : supports_.gaps) add_gap(gap);
+    for (std::size_t i = 0; i < supports_.cones.size(); ++i)
+      if (reach_.cones[i] > 0.0f) add_cone(supports_.cones[i], reach_.cones[i]);
+    for (const GapFace& gap : supports_.gaps)
+      if (reach_.facets[gap.facet] > 0.0f) add_gap(gap);
   }
 
  private:
@@ -58,8 +60,7 @@ class Appender {
     if (!cut(pa, pb)) return;
     const Uvw a = project(pa), b = project(pb);
     const glm::dvec2 downhill{-std::cos(f.rim_angle), -std::sin(f.rim_angle)};
-    const double reach_a = std::max(0.0, a.w - options_.far_weight) * space_.radius;
-    const double reach_b = std::max(0.0, b.w - options_.far_weight) * space_.radius;
+    const double reach_a = extent(a.w, reach_.facets[i]), reach_b = extent(b.w, reach_.facets[i]);
     const glm::dvec2 along = b.uv - a.uv;
     const double length = glm::length(along);
     glm::dvec2 e = length > 1e-12 ? along / length : glm::dvec2(-downhill.y, downhill.x);
@@ -78,11 +79,11 @@ class Appender {
   }
 
   /// The sector of the cone, as a fan circumscribed to it.
-  void add_cone(const ConeSector& cone) {
+  void add_cone(const ConeSector& cone, float cone_reach) {
     const Vec3 p = local(cone.vertex);
     if (p.z <= options_.near_depth) return;
     const Uvw apex = project(p);
-    const double reach = std::max(0.0, apex.w - options_.far_weight) * space_.radius + options_.dilation;
+    const double reach = extent(apex.w, cone_reach) + options_.dilation;
     const double sector = cone.to_angle - cone.from_angle;
     // A chord of half angle h, pushed out to touch the circle, overshoots by 1/cos h - 1: half a texel is allowed.
     const double allowed = std::max(1e-3, 0.5 * options_.dilation / reach);
@@ -118,6 +119,12 @@ class Appender {
     for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet);
   }
 
+  /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest receiver.
+  double extent(double w, float reach) const {
+    constexpr double kMargin = 1.05;  // the reach was probed at a few points only
+    return space_.radius * std::max(0.0, w - std::max(options_.far_weight, w / (kMargin * static_cast<double>(reach))));
+  }
+
   /// Cuts the segment at the near depth; false where nothing is left.
   bool cut(Vec3& a, Vec3& b) const {
     const double n = options_.near_depth;
@@ -136,6 +143,7 @@ class Appender {
   const TriangleMesh& mesh_;
   const LightSpace& space_;
   const Supports& supports_;
+  const FacetReach& reach_;
   const EntryGeometryOptions& options_;
   EntryGeometry& out_;
   std::uint32_t first_;
@@ -152,8 +160,8 @@ Vec3 LightSpace::to_light(const Vec3& world) const {
 }
 
 void append_entry_geometry(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-                           const EntryGeometryOptions& options, EntryGeometry& out) {
-  Appender(mesh, space, supports, options, out).run();
+                           const FacetReach& reach, const EntryGeometryOptions& options, EntryGeometry& out) {
+  Appender(mesh, space, supports, reach, options, out).run();
 }
 
 }  // namespace penumbra::detail

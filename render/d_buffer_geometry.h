@@ -12,6 +12,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
+#include "render/facet_reach.h"
 #include "volumes/supports.h"
 
 namespace penumbra::detail {
@@ -46,6 +47,6 @@ struct EntryGeometryOptions {
 
 /// Adds one caster. Cost O(facets + cone segments).
 void append_entry_geometry(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-                           const EntryGeometryOptions& options, EntryGeometry& out);
+                           const FacetReach& reach, const EntryGeometryOptions& options, EntryGeometry& out);
 
 }  // namespace penumbra::detail

@@ -99,9 +99,23 @@ struct Counts {
   std::size_t rays = 0;
 };
 
+/// The packet's rays one by one, as a plain use of Embree would trace them.
+void trace_singly(const RayScene& rays, const int* valid, RTCIntersectContext& context, RTCRay16& packet) {
+  for (int k = 0; k < kLanes; ++k) {
+    if (!valid[k]) continue;
+    RTCRay ray{};
+    ray.org_x = packet.org_x[k], ray.org_y = packet.org_y[k], ray.org_z = packet.org_z[k];
+    ray.dir_x = packet.dir_x[k], ray.dir_y = packet.dir_y[k], ray.dir_z = packet.dir_z[k];
+    ray.tfar = packet.tfar[k];
+    ray.mask = packet.mask[k];
+    rtcOccluded1(rays.impl().casters, &context, &ray);
+    packet.tfar[k] = ray.tfar;
+  }
+}
+
 /// `all`: also trace what is below the horizon, for the unblocked count.
 Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight& light, const StratumTable& table,
-                      std::uint32_t key, bool all) {
+                      std::uint32_t key, bool all, bool packets) {
   Counts counts;
   Aim aim;
   alignas(64) RTCRay16 packet;
@@ -124,7 +138,10 @@ Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight&
     }
     if (lanes == 0) continue;
     counts.rays += static_cast<std::size_t>(lanes);
-    rtcOccluded16(valid, rays.impl().casters, &context, &packet);
+    if (packets)
+      rtcOccluded16(valid, rays.impl().casters, &context, &packet);
+    else
+      trace_singly(rays, valid, context, packet);
     for (int k = 0; k < kLanes; ++k) {
       const int open = valid[k] & (packet.tfar[k] >= 0.0f ? -1 : 0);  // Embree sets tfar to -infinity at a hit
       counts.visible -= open & aim.above[k];
@@ -182,7 +199,8 @@ ReferenceResult trace_reference(const Scene& scene, const RayScene& rays, const 
       return;
     }
     const Counts counts = trace_receiver(rays, local_receiver(surface, pixel, rays.frame()), light, table,
-                                         detail::sample_key(options.seed, pixels[i]), with_unblocked);
+                                         detail::sample_key(options.seed, pixels[i]), with_unblocked,
+                                         options.packets);
     out.visibility[i] = static_cast<float>(counts.visible) * per_sample;
     if (with_unblocked) out.unblocked[i] = static_cast<float>(counts.unblocked) * per_sample;
     traced += counts.rays;

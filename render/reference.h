@@ -18,6 +18,7 @@ namespace penumbra {
 struct ReferenceOptions {
   int samples = 256;         ///< rays a pixel, 1 to 1,048,576; rounded up to ⌊√n⌋ rows of equal length (squares stay)
   std::uint64_t seed = 1;    ///< two seeds give two independent references
+  bool packets = true;       ///< 16 rays at a time; false: one by one, to compare
 };
 
 struct ReferenceResult {

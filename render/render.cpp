@@ -76,7 +76,7 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
     d_buffer.reset();
     context = gl::make_context(options.backend);
     backend = options.backend;
-    d_buffer = std::make_unique<DBuffer>(*context, scene);
+    d_buffer = std::make_unique<DBuffer>(*context, scene, rays);
     clock.restart();  // one-time set-up, not a stage
   }
   d_buffer->set_surface(surface);

@@ -30,6 +30,8 @@ uniform vec4 target_window[kMaxTargets];
 
 layout(location = 0) out float visibility;
 
+const float kBias = 0.75;       // in texels
+
 struct Receiver {
   vec3 x;        // point
   vec3 n;        // normal towards the viewer
@@ -111,9 +113,10 @@ bool occluded(Receiver r, Texel t) {
   if (slope >= 0.0) return false;  // the light's center is below the horizon: its texel says nothing about the rest
   uint face = texelFetch(occluder_face, t.at, 0).r;
   if (face == kEmpty || face == r.face) return false;
-  float plane = dot(r.n, t.direction) / (slope * t.direction.z);  // 1/z of the receiver's plane at the texel's centre
-  float bias = 1e-3 * r.weight + abs(plane - r.weight);
-  return weight_of(occluder_depth, t) > r.weight + bias;
+  float weight = weight_of(occluder_depth, t);
+  vec3 o = t.direction / (weight * t.direction.z);
+  // Bias: within a texel a surface may rise by about a texel's width above the plane of the receiver's face.
+  return weight > r.weight && dot(r.n, o - r.x) > kBias * t.size / weight;
 }
 
 float by_layer(usampler2DArray facets, sampler2DArray depth, Receiver r, Texel t, Chord horizon) {

@@ -16,9 +16,12 @@ namespace penumbra::testing {
 
 class ConvexPieces {
  public:
-  ConvexPieces(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles)
-      : positions_(positions), triangles_(triangles) {
+  ConvexPieces(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles,
+               const DiskLight& light)
+      : positions_(positions), triangles_(triangles), center_(light.center), frame_(light_frame(light)) {
+    compute_planes();
     gather();
+    witness_.assign(pieces_.size(), 0);
     // A tree over boxes, by way of one "triangle" per box.
     for (const Piece& piece : pieces_) {
       const auto first = static_cast<std::uint32_t>(box_corners_.size());
@@ -53,15 +56,29 @@ class ConvexPieces {
     return true;
   }
 
-  /// The winding number at x, or `enough` where it is at least that.
-  int winding_number(const Vec3& x, int enough = std::numeric_limits<int>::max()) const {
+  /// The winding number at x, in front of the light, or `enough` where it is at least that.
+  int winding_number(const Vec3& x, int enough = std::numeric_limits<int>::max()) {
+    const Vec3 image = project(x);
     int winding = 0;
-    tree_->find([&](const Bounds& box) { return is_in_box(x, box); },
+    tree_->find([&](const Bounds& box) { return is_in_box(image, box); },
                 [&](std::uint32_t p) {
-                  if (is_in_box(x, pieces_[p].box) && is_in_piece(x, pieces_[p])) ++winding;
+                  if (is_in_box(image, pieces_[p].box) && is_in_piece(x, p)) ++winding;
                   return winding >= enough;
                 });
     return winding;
+  }
+
+  /// The greatest t in [0, 1] at which x + t·way is in some piece, in rounded arithmetic; below 0 where it is
+  /// in none.
+  double last_exit(const Vec3& x, const Vec3& way) const {
+    const Vec3 from = project(x), to = project(x + way);
+    double last = -1.0;
+    tree_->find([&](const Bounds& box) { return segment_meets_box(from, to - from, box); },
+                [&](std::uint32_t p) {
+                  last = std::max(last, exit_of(x, way, pieces_[p], last));
+                  return false;
+                });
+    return last;
   }
 
  private:
@@ -69,20 +86,92 @@ class ConvexPieces {
     std::vector<std::uint32_t> triangles;
     Bounds box;
   };
+  struct Plane {
+    Vec3 normal;
+    double offset, size, reach;
+  };
 
   static bool is_in_box(const Vec3& x, const Bounds& b) {
     return x.x >= b.low.x && x.y >= b.low.y && x.z >= b.low.z && x.x <= b.high.x && x.y <= b.high.y &&
            x.z <= b.high.z;
   }
 
+  /// Exact; a rounded plane with a generous margin decides nearly always.
   bool is_beyond(const Vec3& x, std::uint32_t i) const {
+    constexpr double kMargin = 1e-11;
+    const Plane& plane = planes_[i];
+    const double height = glm::dot(plane.normal, x) - plane.offset;
+    const double margin =
+        kMargin * plane.size * (std::abs(x.x) + std::abs(x.y) + std::abs(x.z) + plane.reach);
+    if (std::abs(height) > margin) return height > 0.0;
     const IndexedTriangle& t = triangles_[i];
     return orient3d(positions_[t[0]], positions_[t[1]], positions_[t[2]], x) == Sign::kPositive;
   }
 
-  bool is_in_piece(const Vec3& x, const Piece& piece) const {
-    return std::none_of(piece.triangles.begin(), piece.triangles.end(),
-                        [&](std::uint32_t i) { return is_beyond(x, i); });
+  void compute_planes() {
+    for (const IndexedTriangle& t : triangles_) {
+      const Vec3 &p = positions_[t[0]], &q = positions_[t[1]], &r = positions_[t[2]];
+      const Vec3 normal = glm::cross(q - p, r - p);
+      // The normal's error is relative to the product of the sides, not to its own length.
+      const double size = glm::length(q - p) * glm::length(r - p);
+      const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+      planes_.push_back({normal, glm::dot(normal, p), size, 3.0 * reach});
+    }
+  }
+
+  /// Tries first the triangle that kept the previous point out.
+  bool is_in_piece(const Vec3& x, std::uint32_t p) {
+    const std::vector<std::uint32_t>& triangles = pieces_[p].triangles;
+    if (is_beyond(x, triangles[witness_[p]])) return false;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      if (!is_beyond(x, triangles[i])) continue;
+      witness_[p] = i;
+      return false;
+    }
+    return true;
+  }
+
+  double exit_of(const Vec3& x, const Vec3& way, const Piece& piece, double at_least) const {
+    double enter = 0.0, leave = 1.0;
+    for (const std::uint32_t i : piece.triangles) {
+      const double height = glm::dot(planes_[i].normal, x) - planes_[i].offset;
+      const double slope = glm::dot(planes_[i].normal, way);
+      if (slope > 0.0) {
+        leave = std::min(leave, -height / slope);
+      } else if (slope < 0.0) {
+        enter = std::max(enter, -height / slope);
+      } else if (height > 0.0) {
+        return -1.0;
+      }
+      if (leave < enter || leave <= at_least) return -1.0;
+    }
+    return leave;
+  }
+
+  Vec3 project(const Vec3& x) const {
+    const Vec3 d = x - center_;
+    const double depth = glm::dot(d, frame_.w);
+    return {glm::dot(d, frame_.u) / depth, glm::dot(d, frame_.v) / depth, -1.0 / depth};
+  }
+
+  /// The box of a piece's image, a little wider than computed; everything where the piece is not well in
+  /// front.
+  Bounds box_of(const std::vector<std::uint32_t>& triangles) const {
+    constexpr double kSlack = 1e-9, kEverything = 1e300;
+    Bounds box;
+    for (const std::uint32_t i : triangles) {
+      for (const std::uint32_t v : triangles_[i]) {
+        const double depth = glm::dot(positions_[v] - center_, frame_.w);
+        if (depth < 1e-6) return {Vec3(-kEverything), Vec3(kEverything)};
+        box.add(project(positions_[v]));
+      }
+    }
+    for (int k = 0; k < 3; ++k) {
+      const double slack = kSlack * (1.0 + std::abs(box.low[k]) + std::abs(box.high[k]));
+      box.low[k] -= slack;
+      box.high[k] += slack;
+    }
+    return box;
   }
 
   std::uint32_t root(std::uint32_t v) {
@@ -101,15 +190,17 @@ class ConvexPieces {
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
       const auto [entry, added] = number.try_emplace(root(triangles_[i][0]), pieces_.size());
       if (added) pieces_.emplace_back();
-      Piece& piece = pieces_[entry->second];
-      piece.triangles.push_back(i);
-      for (const std::uint32_t v : triangles_[i]) piece.box.add(positions_[v]);
+      pieces_[entry->second].triangles.push_back(i);
     }
+    for (Piece& piece : pieces_) piece.box = box_of(piece.triangles);
   }
 
   std::span<const Vec3> positions_;
   std::span<const IndexedTriangle> triangles_;
-  std::vector<std::uint32_t> parent_;
+  Vec3 center_;
+  LightFrame frame_;
+  std::vector<std::uint32_t> parent_, witness_;
+  std::vector<Plane> planes_;
   std::vector<Piece> pieces_;
   std::vector<Vec3> box_corners_;
   std::vector<IndexedTriangle> box_triangles_;

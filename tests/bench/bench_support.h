@@ -1,0 +1,52 @@
+// What the benchmarks share: medians, peak memory, references.
+#pragma once
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "render/error_figures.h"
+#include "render/reference.h"
+#include "render/surface_buffer.h"
+
+namespace penumbra::bench {
+
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values.empty() ? 0.0 : values[values.size() / 2];
+}
+
+/// Largest resident size of this process so far, MiB.
+inline double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+/// Two independent references of a view and its true penumbra.
+struct Truth {
+  std::vector<float> first, second;
+  std::vector<std::uint32_t> receivers, penumbra;
+
+  Truth(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, int samples) {
+    std::vector<std::uint32_t> pixels(surface.size());
+    std::iota(pixels.begin(), pixels.end(), 0u);
+    ReferenceOptions options;
+    options.samples = samples;
+    options.seed = 101;
+    first = trace_reference(scene, rays, surface, pixels, options).visibility;
+    options.seed = 102;
+    second = trace_reference(scene, rays, surface, pixels, options).visibility;
+    for (std::uint32_t p : pixels)
+      if (surface.hit(p)) receivers.push_back(p);
+    penumbra = true_penumbra(first, second, receivers);
+  }
+  double rmse(const std::vector<float>& visibility) const {
+    return error_figures(visibility, first, second, penumbra).rmse;
+  }
+};
+
+}  // namespace penumbra::bench
