@@ -13,7 +13,10 @@ constexpr double kPi = std::numbers::pi;
 /// Length of the chord at distance `d` that lies in the half-plane at distance `other`, whose normal makes the given angle.
 double kept_length(double d, double other, double cosine, double sine) {
   const double half = std::sqrt(std::max(0.0, 1.0 - d * d));
-  const double start = (d * cosine - other) / std::max(sine, 1e-300);
+  // (d cos - other) / sin without cancellation. The large term is the same for both chords but for its sign, so that
+  // what sin has lost where they nearly coincide drops out of δ1 L1 + δ2 L2.
+  const double s = std::max(sine, 1e-300);
+  const double start = cosine > 0.0 ? (d - other) / s - d * sine / (1.0 + cosine) : d * sine / (1.0 - cosine) - (d + other) / s;
   return half - std::clamp(start, -half, half);
 }
 
@@ -37,7 +40,7 @@ double half_plane_area(double delta) {
 
 double half_plane_area_fast(double delta) {
   const double s = std::min(std::abs(delta), 1.0);
-  const double tail = (1.0 - s) * std::sqrt(1.0 - s) * (0.5 + s * (0.11257 - 0.01319 * s));
+  const double tail = (1.0 - s) * std::sqrt(1.0 - s) * (0.5 + s * (0.11275 - 0.01345 * s));
   return delta > 0.0 ? 1.0 - tail : tail;
 }
 

@@ -28,7 +28,7 @@ Vec3 edge_plane(const Vec3& x, const Vec3& a, const Vec3& b);
 /// Area fraction of the half-plane: 1/2 + (asin δ + δ√(1-δ²))/π, clamped outside [-1, 1].
 double half_plane_area(double delta);
 
-/// The same within 2.2e-5 and without an arc sine: with s = |δ|, tail = (1-s)^1.5 (0.5 + 0.11257 s - 0.01319 s²).
+/// The same within 2.5e-5 and without an arc sine: with s = |δ|, tail = (1-s)^1.5 (0.5 + 0.11275 s - 0.01345 s²).
 double half_plane_area_fast(double delta);
 
 /// Area fraction common to two half-planes; exact up to rounding. By Green's theorem twice the area is δ1 L1 + δ2 L2 +

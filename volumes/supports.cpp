@@ -129,6 +129,7 @@ class Finder {
     for (const FacetEnd& arriving : ends)
       for (const FacetEnd& leaving : ends) {
         if (arriving.leaves || !leaving.leaves) continue;
+        if (out_.facets[arriving.facet].edge == out_.facets[leaving.facet].edge) continue;  // both sides of a knife edge
         const double turn = std::abs(std::remainder(leaving.angle - arriving.angle, 2.0 * kPi));
         if (turn < kSharpestTurn) links_.push_back({turn, arriving.facet, leaving.facet});
       }

@@ -8,9 +8,8 @@
 namespace penumbra::gl {
 namespace {
 
-std::string expand_includes(std::string_view file) {
+std::string expand_includes(std::string text) {
   constexpr std::string_view kInclude = "#include \"";
-  std::string text(shader_source(file));
   for (std::size_t at = text.find(kInclude); at != std::string::npos; at = text.find(kInclude, at)) {
     const std::size_t name = at + kInclude.size();
     const std::size_t quote = text.find('"', name);
@@ -22,7 +21,7 @@ std::string expand_includes(std::string_view file) {
 }
 
 GLuint compile(const Functions& gl, const Program::Stage& stage) {
-  const std::string text = expand_includes(stage.file);
+  const std::string text = expand_includes(std::string(stage.text.empty() ? shader_source(stage.file) : stage.text));
   const char* pointer = text.c_str();
   const GLuint shader = gl.CreateShader(stage.type);
   gl.ShaderSource(shader, 1, &pointer, nullptr);

@@ -14,7 +14,8 @@ class Program {
  public:
   struct Stage {
     GLenum type;
-    std::string_view file;
+    std::string_view file;       ///< in render/shaders; only a name for messages where there is a text
+    std::string_view text = {};  ///< the source itself, instead of the file's
   };
   /// Throws SystemError with the compiler's log.
   Program(const Functions& gl, std::initializer_list<Stage> stages);

@@ -32,13 +32,15 @@ float half_plane_area(float delta) {
 
 float half_plane_area_fast(float delta) {
   float s = min(abs(delta), 1.0);
-  float tail = (1.0 - s) * sqrt(1.0 - s) * (0.5 + s * (0.11257 - 0.01319 * s));
+  float tail = (1.0 - s) * sqrt(1.0 - s) * (0.5 + s * (0.11275 - 0.01345 * s));
   return delta > 0.0 ? 1.0 - tail : tail;
 }
 
 float kept_length(float d, float other, float cosine, float sine) {
   float reach = sqrt(max(0.0, (1.0 - d) * (1.0 + d)));
-  float start = (d * cosine - other) / max(sine, 1e-30);
+  // (d cos - other) / sin, arranged so that rounding drops out where the chords nearly coincide (see disk_area.cpp).
+  float s = max(sine, 1e-30);
+  float start = cosine > 0.0 ? (d - other) / s - d * sine / (1.0 + cosine) : d * sine / (1.0 - cosine) - (d + other) / s;
   return reach - clamp(start, -reach, reach);
 }
 

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <iostream>
 
+#include "mesh/shapes.h"
 #include "tests/volumes/convex_pieces.h"
 #include "tests/volumes/scene_caster.h"
 #include "tests/volumes/shadow_oracle.h"
@@ -166,6 +167,17 @@ INSTANTIATE_TEST_SUITE_P(Data, EveryScene, ::testing::ValuesIn(testing::scene_na
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
+
+/// A convex caster of many vertices, most of which are left out of the far end.
+TEST(PenumbraOfAFineSphere, ContainsItsShadow) {
+  Bounds box;
+  box.add(Vec3(-6, 0, -6));
+  box.add(Vec3(6, 10, 6));
+  for (const double radius : {0.0001, 0.8, 3.5}) {
+    check("fine sphere", make_icosphere({-0.3, 5, 0.1}, 1.0, 5), DiskLight{{0, 10, 0}, {0.1, -1, 0}, radius},
+          box, 4000);
+  }
+}
 
 /// Lights that cut through the caster or touch it: clipped triangles, distance cut-offs and half-space cells.
 TEST(PenumbraNearTheLight, ContainsTheShadowOfFacesThatCrossItsPlane) {

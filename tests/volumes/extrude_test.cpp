@@ -54,7 +54,7 @@ int winding_at(const ShadowMesh& volume, const DiskLight& light, const Vec3& x) 
 // -----------------------------------------------------------------------------------------------------
 
 TEST(ExtrudePenumbra, OneCellForAConvexCaster) {
-  for (const TriangleMesh& mesh : {make_box({0.3, 5, 0.2}, Vec3(0.8)), make_icosphere({-0.3, 5, 0.1}, 1.0, 3),
+  for (const TriangleMesh& mesh : {make_box({0.3, 5, 0.2}, Vec3(0.8)), make_icosphere({-0.3, 5, 0.1}, 1.0, 5),
                                    make_cylinder({0, 5, 0}, 0.5, 1.0, 24)}) {
     const ShadowMesh volume = build(mesh, kLight).penumbra;
     EXPECT_EQ(volume.cells, 1u);
@@ -179,6 +179,21 @@ TEST(ExtrudePenumbra, KnifeEdgeWithoutAnAllFrontFace) {
     ASSERT_GE(testing::winding_number(tree, x, {0, 11, 0}, 0.1, random), 1);
   }
   EXPECT_GT(shaded, 300);
+}
+
+/// The same face by face: mixed faces alone have to do it.
+TEST(ExtrudePenumbra, MixedFacesHaveCells) {
+  const DiskLight large{{0, 10, 0}, {0, -1, 0}, 4.0};
+  const TriangleMesh mesh = knife();
+  VolumeOptions options;
+  options.extrude.split_convex = false;
+  const ShadowMesh volume = build_shadow_volumes(mesh, large, options).penumbra;
+  EXPECT_EQ(volume.cells, 6u);  // of 8 faces the two of the bottom look away
+  testing::ShadowOracle oracle(mesh, large);
+  for (const Vec3& x : {Vec3(0, 3, 0), Vec3(0.5, 5, 0.3), Vec3(-3, 2, 2), Vec3(0, 1, -4)}) {
+    ASSERT_TRUE(oracle.is_partly_hidden(x));
+    EXPECT_GE(winding_at(volume, large, x), 1);
+  }
 }
 
 /// A square slab with a small hole: 16 outer and inner corners. Below the hole some light is missing

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <optional>
 #include <numbers>
+#include <optional>
 
 #include "volumes/detail/convex_hull.h"
 #include "volumes/detail/vectors.h"
@@ -80,6 +80,56 @@ std::vector<Vec3> light_corners(const ShadowReach& reach, const UnitPolygon& pol
   return corners;
 }
 
+/// Where a vertex of the body sends the light on the far plane: a disk (the polygon is between it and its
+/// circumcircle).
+struct FarDisk {
+  double x, y, scale;  ///< center in the light's frame, and by how much the light grows
+};
+
+/// Which vertices of a large body can be on the outline of its far end. A support point in each of some
+/// directions gives a polygon inside of the far end's hull; a vertex whose whole far disk is well inside of
+/// that polygon adds nothing.
+std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach& reach, double far_depth,
+                                   double inradius, double circumradius) {
+  constexpr std::size_t kFewVertices = 64;
+  constexpr int kDirections = 48;
+  constexpr double kWellInside = 1e-9;  // of the polygon's size: far above rounding
+  if (body.size() <= kFewVertices) return {body.begin(), body.end()};
+
+  std::vector<FarDisk> disks;
+  for (const Vec3& k : body) {
+    const Vec3 d = k - reach.center;
+    const double s = far_depth / glm::dot(reach.frame.w, d);
+    disks.push_back({s * glm::dot(reach.frame.u, d), s * glm::dot(reach.frame.v, d), s - 1.0});
+  }
+  std::vector<std::array<double, 2>> inner;
+  double size = 0.0;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kDirections, x = std::cos(angle), y = std::sin(angle);
+    const auto support = [&](const FarDisk& d) { return x * d.x + y * d.y + d.scale * inradius; };
+    const FarDisk& d = *std::max_element(disks.begin(), disks.end(), [&](const FarDisk& a, const FarDisk& b) {
+      return support(a) < support(b);
+    });
+    inner.push_back({d.x + x * d.scale * inradius, d.y + y * d.scale * inradius});
+    size = std::max({size, std::abs(inner.back()[0]), std::abs(inner.back()[1])});
+  }
+  const auto is_well_inside = [&](const FarDisk& d) {
+    for (int i = 0; i < kDirections; ++i) {
+      const auto [ax, ay] = inner[i];
+      const auto [bx, by] = inner[(i + 1) % kDirections];
+      const double ex = bx - ax, ey = by - ay, length = std::hypot(ex, ey);
+      const double room = d.scale * circumradius + kWellInside * size;
+      if (length > kWellInside * size && ex * (d.y - ay) - ey * (d.x - ax) < room * length) return false;
+    }
+    return true;
+  };
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (!is_well_inside(disks[i])) kept.push_back(body[i]);
+  }
+  return kept;
+}
+
 /// Cut off by a plane parallel to the light. One more point, a little beyond, keeps the far end from being
 /// flat: its triangulation then needs no exact arithmetic.
 CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, const UnitPolygon& polygon,
@@ -93,13 +143,13 @@ CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, co
   const std::vector<Vec3> corners =
       light_corners(reach, polygon, reach.radius * (1.0 + kLightMargin) + margin);
   CellPoints cell{{body.begin(), body.end()}, body.size()};
-  cell.points.reserve(body.size() * (1 + corners.size()) + 1);
-  Vec3 middle(0.0);
-  for (const Vec3& k : body) {
+  cell.points.reserve(body.size() + outline.size() * corners.size() + 1);
+  for (const Vec3& k : outline) {
     const double s = far_depth / reach.depth(k);
     for (const Vec3& p : corners) cell.points.push_back(p + s * (k - p));
-    middle += (k - reach.center) / static_cast<double>(body.size());
   }
+  Vec3 middle(0.0);
+  for (const Vec3& k : body) middle += (k - reach.center) / static_cast<double>(body.size());
   cell.points.push_back(reach.center + (kDome * far_depth / glm::dot(reach.frame.w, middle)) * middle);
   return cell;
 }
