@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,40 @@
 
 namespace penumbra {
 
+enum class DBufferContents {
+  kEdge,       ///< which edge bounds the penumbra: the chord is exact for every receiver
+  kDistances,  ///< the 2004 paper's |cxuv|, |cxpv| and |cxs|, with eq. 2 and 3 corrected
+};
+enum class VisibilityCurve {
+  kExact,       ///< the disk's area beyond the chord; with kEdge, with the neighbouring edge at corners too
+  kSmoothstep,  ///< 3t² - 2t³ (the paper's eq. 4), t = (1 + δ)/2; off by up to 0.039
+  kSquareRoot,  ///< √t (the paper's section 6.2, for small occluders)
+};
+enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps
+
+/// A word of the command line and of --stats, and the value it stands for.
+template <class Value>
+struct NamedValue {
+  Value value;
+  const char* name;
+};
+std::span<const NamedValue<DBufferContents>> d_buffer_contents();
+std::span<const NamedValue<VisibilityCurve>> visibility_curves();
+std::span<const NamedValue<Conflict>> conflicts();
+
+template <class Value>
+const char* name_in(std::span<const NamedValue<Value>> names, Value value) {
+  for (const auto& n : names)
+    if (n.value == value) return n.name;
+  return "?";
+}
+
 struct DBufferOptions {
   int size = 1024;  ///< texels a side of each target, 16 to 8192
+  DBufferContents contents = DBufferContents::kEdge;
+  int entries = 1;  ///< entries kept per texel and kind of boundary, 1 or 2 (2: kEdge and kNearest only)
+  VisibilityCurve curve = VisibilityCurve::kExact;
+  Conflict conflict = Conflict::kNearest;
 };
 
 struct DBufferFrame {

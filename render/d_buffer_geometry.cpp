@@ -1,6 +1,7 @@
 #include "render/d_buffer_geometry.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -45,12 +46,15 @@ class Appender {
   }
 
   void add_record(const SupportFacet& f) {
-    const auto point = [&](VertexId v, bool there) { return glm::vec4(glm::vec3(local(v)), there ? 1.0f : 0.0f); };
+    const auto point = [&](VertexId v, std::uint32_t facet) {
+      const std::uint32_t link = facet == kNoFacet ? 0 : first_ + facet + 1;
+      return glm::vec4(glm::vec3(local(v)), std::bit_cast<float>(link));
+    };
     const bool before = f.previous != kNoFacet, after = f.next != kNoFacet;
-    out_.records.push_back(point(before ? begin_of(supports_.facets[f.previous]) : begin_of(f), before));
-    out_.records.push_back(point(begin_of(f), true));
-    out_.records.push_back(point(end_of(f), true));
-    out_.records.push_back(point(after ? end_of(supports_.facets[f.next]) : end_of(f), after));
+    out_.records.push_back(point(before ? begin_of(supports_.facets[f.previous]) : begin_of(f), f.previous));
+    out_.records.push_back(point(begin_of(f), kNoFacet));
+    out_.records.push_back(point(end_of(f), kNoFacet));
+    out_.records.push_back(point(after ? end_of(supports_.facets[f.next]) : end_of(f), f.next));
   }
 
   /// The quadrilateral from the edge along the plane w = (cos φ u + sin φ v + κ)/r, down to the farthest receiver.
@@ -75,7 +79,7 @@ class Appender {
                             on_plane(b.uv + reach_b * downhill + d * e + d * out),
                             on_plane(a.uv + reach_a * downhill - d * e + d * out)};
     auto& triangles = f.kind == SupportKind::kPenumbra ? out_.penumbra : out_.umbra;
-    for (int k : {0, 1, 2, 0, 2, 3}) push(triangles, corners[k], first_ + i);
+    for (int k : {0, 1, 2, 0, 2, 3}) push(triangles, corners[k], first_ + i, k == 0 || k == 3 ? a.w : b.w);
   }
 
   /// The sector of the cone, as a fan circumscribed to it.
@@ -100,9 +104,7 @@ class Appender {
     for (int k = 0; k <= segments; ++k) {
       const Uvw next = k < segments ? at(cone.from_angle + (k + 0.5) * step, stretch) : at(cone.to_angle, 1.0);
       const std::uint32_t facet = 2 * k < segments ? cone.from_facet : cone.to_facet;
-      push(triangles, apex, first_ + facet);
-      push(triangles, last, first_ + facet);
-      push(triangles, next, first_ + facet);
+      for (const Uvw& corner : {apex, last, next}) push(triangles, corner, first_ + facet, apex.w);
       last = next;
     }
   }
@@ -116,7 +118,7 @@ class Appender {
       if (p.z <= options_.near_depth) return;
       corners[k] = project(p);
     }
-    for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet);
+    for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet, c.w);
   }
 
   /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest receiver.
@@ -134,8 +136,9 @@ class Appender {
     return true;
   }
 
-  void push(std::vector<EntryVertex>& triangles, const Uvw& p, std::uint32_t facet) {
-    triangles.push_back({static_cast<float>(p.uv.x), static_cast<float>(p.uv.y), static_cast<float>(p.w), facet});
+  void push(std::vector<EntryVertex>& triangles, const Uvw& p, std::uint32_t facet, double edge_weight) {
+    triangles.push_back({static_cast<float>(p.uv.x), static_cast<float>(p.uv.y), static_cast<float>(p.w), facet,
+                         static_cast<float>(edge_weight)});
     out_.low = glm::min(out_.low, p.uv);
     out_.high = glm::max(out_.high, p.uv);
   }

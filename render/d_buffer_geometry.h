@@ -29,12 +29,13 @@ struct LightSpace {
 struct EntryVertex {
   float u, v, w;
   std::uint32_t facet;  ///< index into EntryGeometry::records / 4
+  float edge_weight;    ///< 1/z of the edge's point from which this line of the boundary starts
 };
 
 struct EntryGeometry {
   std::vector<EntryVertex> penumbra, umbra;  ///< triangles, three vertices each
   /// Four points a facet, light's frame: previous, a, b, next (directed so that the lit side is positive); the fourth
-  /// number is 1 where there is a previous or next facet.
+  /// number of the outer two is 1 + the previous or next facet, as bits; 0: none.
   std::vector<glm::vec4> records;
   glm::dvec2 low{1e300}, high{-1e300};  ///< bounds of (u, v)
 };

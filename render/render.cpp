@@ -85,7 +85,12 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
   for (const StageTime& s : frame.stages) clock.add(s);
   stats["renderer"] = context->renderer();
   stats["counts"] = frame.counts;
-  stats["options"] = {{"dbuffer_size", options.d_buffer.size}, {"backend", gl::name_of(options.backend)}};
+  stats["options"] = {{"dbuffer_size", options.d_buffer.size},
+                      {"dbuffer", name_in(d_buffer_contents(), options.d_buffer.contents)},
+                      {"dbuffer_entries", options.d_buffer.entries},
+                      {"visibility", name_in(visibility_curves(), options.d_buffer.curve)},
+                      {"conflict", name_in(conflicts(), options.d_buffer.conflict)},
+                      {"backend", gl::name_of(options.backend)}};
   return std::move(frame.visibility);
 }
 

@@ -179,6 +179,15 @@ TEST(PenumbraOfAFineSphere, ContainsItsShadow) {
   }
 }
 
+TEST(PenumbraOfAFineSphere, ContainsItsShadowWhenTinyAndFarFromTheAxis) {
+  const Vec3 center(900, 5, 0);
+  Bounds box;
+  box.add(center - Vec3(1e-6));
+  box.add(center + Vec3(1e-6));
+  const DiskLight light{{0, 10, 0}, {0, -1, 0}, 1e-9};
+  check("tiny sphere", make_icosphere(center, 1e-6, 3), light, box, 2000);
+}
+
 /// Lights that cut through the caster or touch it: clipped triangles, distance cut-offs and half-space cells.
 TEST(PenumbraNearTheLight, ContainsTheShadowOfFacesThatCrossItsPlane) {
   const TriangleMesh mesh =

@@ -94,6 +94,7 @@ std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach
   constexpr std::size_t kFewVertices = 64;
   constexpr int kDirections = 48;
   constexpr double kWellInside = 1e-9;  // of the polygon's size: far above rounding
+  constexpr double kNoEdge = 1e-13;     // shorter edges are left out: together far below kWellInside
   if (body.size() <= kFewVertices) return {body.begin(), body.end()};
 
   std::vector<FarDisk> disks;
@@ -114,14 +115,17 @@ std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach
     size = std::max({size, std::abs(inner.back()[0]), std::abs(inner.back()[1])});
   }
   const auto is_well_inside = [&](const FarDisk& d) {
+    const double room = d.scale * circumradius + kWellInside * size;
+    int edges = 0;
     for (int i = 0; i < kDirections; ++i) {
       const auto [ax, ay] = inner[i];
       const auto [bx, by] = inner[(i + 1) % kDirections];
       const double ex = bx - ax, ey = by - ay, length = std::hypot(ex, ey);
-      const double room = d.scale * circumradius + kWellInside * size;
-      if (length > kWellInside * size && ex * (d.y - ay) - ey * (d.x - ax) < room * length) return false;
+      if (length < kNoEdge * size) continue;
+      ++edges;
+      if (ex * (d.y - ay) - ey * (d.x - ax) < room * length) return false;
     }
-    return true;
+    return edges >= 3;
   };
   std::vector<Vec3> kept;
   for (std::size_t i = 0; i < body.size(); ++i) {
@@ -140,8 +144,10 @@ CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, co
   // parallel to the light moves them across the ray by margin · depth / distance.
   const double margin = kRoundingMargin * (extent.largest_coordinate + reach.radius) *
                         (1.0 + (extent.greatest_distance + reach.radius) / extent.least_depth);
-  const std::vector<Vec3> corners =
-      light_corners(reach, polygon, reach.radius * (1.0 + kLightMargin) + margin);
+  const double inradius = reach.radius * (1.0 + kLightMargin) + margin;
+  const std::vector<Vec3> corners = light_corners(reach, polygon, inradius);
+  const std::vector<Vec3> outline =
+      outline_vertices(body, reach, far_depth, inradius, inradius * polygon.circumradius);
   CellPoints cell{{body.begin(), body.end()}, body.size()};
   cell.points.reserve(body.size() + outline.size() * corners.size() + 1);
   for (const Vec3& k : outline) {

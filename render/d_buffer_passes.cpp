@@ -1,0 +1,174 @@
+#include "render/d_buffer_passes.h"
+
+#include <cstddef>
+
+namespace penumbra::detail {
+namespace {
+
+using gl::Object;
+constexpr GLuint kNoId[4] = {0, 0, 0, 0};
+
+template <class T>
+void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std::vector<T>& data, GLenum usage) {
+  gl.BindBuffer(kind, buffer);
+  gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
+}
+
+}  // namespace
+
+DBufferPasses::DBufferPasses(const gl::Functions& gl)
+    : gl_(gl),
+      occluder_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_occluder.vert.glsl"},
+                             {GL_FRAGMENT_SHADER, "d_buffer_occluder.frag.glsl"}}),
+      entry_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"}, {GL_FRAGMENT_SHADER, "d_buffer_entry.frag.glsl"}}),
+      filtered_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"},
+                             {GL_FRAGMENT_SHADER, "d_buffer_entry_filtered.frag.glsl"}}),
+      caster_points_(gl, Object::Kind::kBuffer), caster_indices_(gl, Object::Kind::kBuffer),
+      caster_array_(gl, Object::Kind::kVertexArray), penumbra_vertices_(gl, Object::Kind::kBuffer),
+      umbra_vertices_(gl, Object::Kind::kBuffer), entry_array_(gl, Object::Kind::kVertexArray),
+      record_buffer_(gl, Object::Kind::kBuffer), record_texture_(gl, Object::Kind::kTexture) {}
+
+void DBufferPasses::upload_casters(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& indices,
+                                   std::vector<CasterRange> casters) {
+  casters_ = std::move(casters);
+  gl_.BindVertexArray(caster_array_);
+  fill(gl_, GL_ARRAY_BUFFER, caster_points_, points, GL_STATIC_DRAW);
+  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, caster_indices_, indices, GL_STATIC_DRAW);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+  gl_.EnableVertexAttribArray(0);
+}
+
+void DBufferPasses::upload_entries(const EntryGeometry& geometry) {
+  fill(gl_, GL_ARRAY_BUFFER, penumbra_vertices_, geometry.penumbra, GL_STREAM_DRAW);
+  fill(gl_, GL_ARRAY_BUFFER, umbra_vertices_, geometry.umbra, GL_STREAM_DRAW);
+  fill(gl_, GL_TEXTURE_BUFFER, record_buffer_, geometry.records, GL_STREAM_DRAW);
+  gl_.BindTexture(GL_TEXTURE_BUFFER, record_texture_);
+  gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, record_buffer_);
+  penumbra_count_ = geometry.penumbra.size();
+  umbra_count_ = geometry.umbra.size();
+}
+
+void DBufferPasses::set_target(const gl::Program& program, const Target& target) const {
+  const glm::mat3 axes(target.axes);
+  float window[4];
+  for (std::size_t k = 0; k < 4; ++k) window[k] = static_cast<float>(target.window[k]);
+  gl_.UniformMatrix3fv(program.uniform("target_axes"), 1, GL_FALSE, &axes[0][0]);
+  gl_.Uniform4fv(program.uniform("target_window"), 1, window);
+  gl_.Uniform1f(program.uniform("near_depth"), static_cast<float>(kNearDepth));
+}
+
+void DBufferPasses::attach(const Layer& layer, int index) const {
+  gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, layer.id.texture, 0, index);
+  gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layer.depth.texture, 0, index);
+  const GLenum color = GL_COLOR_ATTACHMENT0;
+  gl_.DrawBuffers(1, &color);
+}
+
+void DBufferPasses::bind(int unit, GLenum kind, GLuint texture) const {
+  gl_.ActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+  gl_.BindTexture(kind, texture);
+}
+
+/// `cull`: only faces towards the light's center, where a caster has an inside.
+void DBufferPasses::draw_casters(const Target& target, bool cull) {
+  set_target(occluder_program_, target);
+  for (const CasterRange& caster : casters_) {
+    if (cull && caster.closed) gl_.Enable(GL_CULL_FACE);
+    gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
+    const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) * sizeof(std::uint32_t));
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(caster.index_count), GL_UNSIGNED_INT, first);
+    gl_.Disable(GL_CULL_FACE);
+  }
+}
+
+/// First surface of all; then the last of those that face the light's center.
+void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
+                                   const DBufferLayers& layers) {
+  occluder_program_.use();
+  gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &axes[0][0]);
+  gl_.Uniform3f(occluder_program_.uniform("light_offset"), offset.x, offset.y, offset.z);
+  gl_.BindVertexArray(caster_array_);
+  gl_.Enable(GL_CLIP_DISTANCE0);
+  gl_.CullFace(GL_FRONT);  // targets look along right × up, which turns windings over
+  const float farthest = 0.0f, nearest = 1.0f;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    attach(layers.occluder, static_cast<int>(i));
+    gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
+    gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
+    draw_casters(targets[i], false);
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.last.texture, 0, static_cast<int>(i));
+    gl_.ClearBufferfv(GL_DEPTH, 0, &nearest);
+    gl_.DepthFunc(GL_LESS);
+    draw_casters(targets[i], true);
+    gl_.DepthFunc(GL_GREATER);
+  }
+  gl_.Disable(GL_CLIP_DISTANCE0);
+}
+
+void DBufferPasses::draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
+                                 const DBufferOptions& options) {
+  gl_.BindVertexArray(entry_array_);
+  const Entries penumbra{penumbra_vertices_, penumbra_count_}, umbra{umbra_vertices_, umbra_count_};
+  draw_kind(targets, layers, layers.penumbra, penumbra, Against::kFirst, options);
+  draw_kind(targets, layers, layers.above, umbra, Against::kLast, options);
+  draw_kind(targets, layers, layers.below, umbra, Against::kBehindLast, options);
+}
+
+void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into,
+                              const Entries& entries, Against against, const DBufferOptions& options) {
+  constexpr auto kStride = sizeof(EntryVertex);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, entries.vertices);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
+  gl_.VertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride, reinterpret_cast<const void*>(offsetof(EntryVertex, facet)));
+  gl_.VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, kStride, reinterpret_cast<const void*>(offsetof(EntryVertex, edge_weight)));
+  for (GLuint attribute : {0u, 1u, 2u}) gl_.EnableVertexAttribArray(attribute);
+  draw_layer(targets, layers, into.first, nullptr, entries, against, options);
+  if (layers.entries > 1) draw_layer(targets, layers, into.second, &into.first, entries, against, options);
+}
+
+void DBufferPasses::set_filter(const Layers& surface, const Layer* after, Against against) const {
+  gl_.Uniform1i(filtered_program_.uniform("against"), against == Against::kBehindLast ? 2 : 1);
+  gl_.Uniform1i(filtered_program_.uniform("peel"), after != nullptr);
+  bind(0, GL_TEXTURE_2D_ARRAY, surface.texture);
+  bind(1, GL_TEXTURE_2D_ARRAY, after ? after->id.texture : 0);
+  bind(2, GL_TEXTURE_2D_ARRAY, after ? after->depth.texture : 0);
+  bind(3, GL_TEXTURE_BUFFER, record_texture_);
+  gl_.Uniform1i(filtered_program_.uniform("surface_depth"), 0);
+  gl_.Uniform1i(filtered_program_.uniform("first_entry"), 1);
+  gl_.Uniform1i(filtered_program_.uniform("first_depth"), 2);
+  gl_.Uniform1i(filtered_program_.uniform("records"), 3);
+  gl_.ActiveTexture(GL_TEXTURE0);
+}
+
+/// The nearest (or furthest) entries of one kind, or with `after` the nearest that come after those.
+void DBufferPasses::draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into,
+                               const Layer* after, const Entries& entries, Against against, const DBufferOptions& options) {
+  const bool furthest = options.conflict == Conflict::kFurthest;
+  const Layers& surface = against == Against::kFirst ? layers.occluder.depth : layers.last;
+  // Nearest in front of a surface needs no filter: the layer starts with the surface's depth.
+  const bool starts_with_surface = !furthest && !after && against != Against::kBehindLast;
+  const gl::Program& program = starts_with_surface ? entry_program_ : filtered_program_;
+  program.use();
+  gl_.Uniform1i(program.uniform("store_edge_weight"), options.contents == DBufferContents::kDistances);
+  if (starts_with_surface)
+    gl_.CopyImageSubData(surface.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, into.depth.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0,
+                         0, layers.size, layers.size, layers.count);
+  else
+    set_filter(surface, after, against);
+  gl_.DepthFunc(furthest ? GL_LESS : GL_GREATER);
+  const float start = furthest ? 1.0f : 0.0f;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    attach(into, static_cast<int>(i));
+    gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
+    if (!starts_with_surface) {
+      gl_.ClearBufferfv(GL_DEPTH, 0, &start);
+      gl_.Uniform1i(program.uniform("layer"), static_cast<int>(i));
+    }
+    set_target(program, targets[i]);
+    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(entries.count));
+  }
+  gl_.DepthFunc(GL_GREATER);
+}
+
+}  // namespace penumbra::detail

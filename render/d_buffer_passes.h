@@ -1,0 +1,61 @@
+// The draw calls that fill a D-buffer: occluders, then entries.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/d_buffer.h"
+#include "render/d_buffer_geometry.h"
+#include "render/d_buffer_layers.h"
+#include "render/d_buffer_targets.h"
+
+namespace penumbra::detail {
+
+/// Nothing nearer to the light's plane than this (of the scene's size) is drawn: casters are cut there.
+inline constexpr double kNearDepth = 0x1p-13;
+
+/// One caster's place in the uploaded buffers.
+struct CasterRange {
+  std::uint32_t first_face;  ///< number of its first face over all objects of the scene
+  std::uint32_t first_index, index_count;
+  bool closed;
+};
+
+class DBufferPasses {
+ public:
+  explicit DBufferPasses(const gl::Functions& gl);
+  /// Casters in a frame of the scene; once.
+  void upload_casters(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& indices,
+                      std::vector<CasterRange> casters);
+  void upload_entries(const EntryGeometry& geometry);
+  /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame).
+  void draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
+                      const DBufferLayers& layers);
+  void draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers, const DBufferOptions& options);
+  GLuint records() const { return record_texture_; }
+
+ private:
+  enum class Against { kFirst, kLast, kBehindLast };
+  struct Entries {
+    const gl::Object& vertices;
+    std::size_t count;
+  };
+  void draw_casters(const Target& target, bool cull);
+  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into, const Entries& entries,
+                 Against against, const DBufferOptions& options);
+  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into, const Layer* after,
+                  const Entries& entries, Against against, const DBufferOptions& options);
+  void set_filter(const Layers& surface, const Layer* after, Against against) const;
+  void set_target(const gl::Program& program, const Target& target) const;
+  void attach(const Layer& layer, int index) const;
+  void bind(int unit, GLenum kind, GLuint texture) const;
+
+  const gl::Functions& gl_;
+  gl::Program occluder_program_, entry_program_, filtered_program_;
+  gl::Object caster_points_, caster_indices_, caster_array_, penumbra_vertices_, umbra_vertices_, entry_array_,
+      record_buffer_, record_texture_;
+  std::vector<CasterRange> casters_;
+  std::size_t penumbra_count_ = 0, umbra_count_ = 0;
+};
+
+}  // namespace penumbra::detail
