@@ -44,14 +44,18 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
   add_choice(command, "--dbuffer", options.contents, d_buffer_contents(),
              "What a texel keeps: the edge that bounds the penumbra, or the 2004 paper's distances")
       ->group(group);
-  command.add_option("--dbuffer-entries", options.entries, "Entries a texel keeps, 1 or 2 (2: with edge and nearest)")
+  command
+      .add_option("--dbuffer-entries", options.entries,
+                  "Entries a texel keeps, 1 or 2 (2: with edge and nearest)")
       ->check(CLI::Range(1, 2))
       ->capture_default_str()
       ->group(group);
-  add_choice(command, "--visibility", options.curve, visibility_curves(),
-             "Area beyond a chord: exact (with the neighbouring edge at corners), smoothstep 3t²-2t³, or sqrt √t")
+  add_choice(
+      command, "--visibility", options.curve, visibility_curves(),
+      "Area beyond a chord: exact (with the neighbouring edge at corners), smoothstep 3t²-2t³, or sqrt √t")
       ->group(group);
-  add_choice(command, "--conflict", options.conflict, conflicts(), "Which of several entries on a line of sight is kept")
+  add_choice(command, "--conflict", options.conflict, conflicts(),
+             "Which of several entries on a line of sight is kept")
       ->group(group);
 }
 

@@ -6,17 +6,19 @@
 namespace penumbra {
 
 struct Camera {
-  Vec3 eye{0.0, 1.0, 4.0};     ///< scene units
+  Vec3 eye{0.0, 1.0, 4.0};  ///< scene units
   Vec3 target{0.0};
-  Vec3 up{0.0, 1.0, 0.0};      ///< any vector not parallel to the line of sight
-  double fov_y_degrees = 40.0; ///< vertical field of view, in (0, 180)
+  Vec3 up{0.0, 1.0, 0.0};       ///< any vector not parallel to the line of sight
+  double fov_y_degrees = 40.0;  ///< vertical field of view, in (0, 180)
 };
 
-/// The ray through a point of the image: origin eye, direction not normalised (length 1 along the line of sight).
+/// The ray through a point of the image: origin eye, direction not normalised (length 1 along the line of
+/// sight).
 struct PixelRays {
   PixelRays(const Camera& camera, int width, int height);
   Vec3 origin;
-  /// Direction through (x, y) in pixels, (0, 0) the top left corner of the image; a pixel's centre is at + 0.5.
+  /// Direction through (x, y) in pixels, (0, 0) the top left corner of the image; a pixel's centre is at +
+  /// 0.5.
   Vec3 direction(double x, double y) const;
 
  private:

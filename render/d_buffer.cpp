@@ -37,7 +37,7 @@ struct DBuffer::Impl {
   /// What one frame knows before anything is drawn.
   struct Plan {
     detail::LightSpace space;
-    glm::mat3 axes;    ///< scene frame → light's frame
+    glm::mat3 axes;  ///< scene frame → light's frame
     glm::vec3 offset;
     std::vector<Supports> supports;
     detail::EntryGeometry geometry;
@@ -45,7 +45,8 @@ struct DBuffer::Impl {
   };
   void find_geometry(const DiskLight& light, const DBufferOptions& options, Plan& plan, StageClock& clock,
                      nlohmann::json& counts) const;
-  void caster_window(const detail::LightSpace& space, double far_weight, glm::dvec2& low, glm::dvec2& high) const;
+  void caster_window(const detail::LightSpace& space, double far_weight, glm::dvec2& low,
+                     glm::dvec2& high) const;
   double far_weight(const detail::LightSpace& space) const;
   void draw(const Plan& plan, const DBufferOptions& options, StageClock& clock);
   std::vector<float> shade(const Plan& plan, const DBufferOptions& options);
@@ -70,10 +71,16 @@ struct DBuffer::Impl {
 };
 
 DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_)
-    : context(context_), gl(context_.functions()), scene(scene_), rays(rays_), scale(rays_.frame().scale), passes(gl),
+    : context(context_),
+      gl(context_.functions()),
+      scene(scene_),
+      rays(rays_),
+      scale(rays_.frame().scale),
+      passes(gl),
       visibility_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
                               {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}}),
-      empty_array(gl, Object::Kind::kVertexArray), framebuffer(gl, Object::Kind::kFramebuffer) {
+      empty_array(gl, Object::Kind::kVertexArray),
+      framebuffer(gl, Object::Kind::kFramebuffer) {
   const Bounds bounds = scene.caster_bounds();
   origin = bounds.empty() ? scene.light.center : bounds.center();
   std::vector<glm::vec3> points;
@@ -88,7 +95,8 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
       for (const Vec3& p : mesh.positions()) points.push_back(glm::vec3((p - origin) * scale));
       for (const IndexedTriangle& t : mesh.triangles())
         for (std::uint32_t v : t) indices.push_back(first_point + v);
-      ranges.push_back({first_face, first_index, static_cast<std::uint32_t>(indices.size()) - first_index, mesh.is_closed()});
+      ranges.push_back({first_face, first_index, static_cast<std::uint32_t>(indices.size()) - first_index,
+                        mesh.is_closed()});
       casters.push_back({&mesh, VertexRings(mesh)});
     }
     first_face += static_cast<std::uint32_t>(mesh.triangles().size());
@@ -131,14 +139,19 @@ double DBuffer::Impl::far_weight(const detail::LightSpace& space) const {
     const Bounds b = bounds_of(object.mesh.positions());
     if (b.empty()) continue;
     for (int corner = 0; corner < 8; ++corner)
-      farthest = std::max(farthest, space.to_light({corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
-                                                    corner & 4 ? b.high.z : b.low.z}).z);
+      farthest =
+          std::max(farthest, space
+                                 .to_light({corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
+                                            corner & 4 ? b.high.z : b.low.z})
+                                 .z);
   }
   return farthest > 0.0 ? 1.0 / farthest : 1.0;
 }
 
-/// Where casters and their penumbrae are seen, in (x/z, y/z); everywhere for a caster that crosses the light's plane.
-void DBuffer::Impl::caster_window(const detail::LightSpace& space, double far, glm::dvec2& low, glm::dvec2& high) const {
+/// Where casters and their penumbrae are seen, in (x/z, y/z); everywhere for a caster that crosses the
+/// light's plane.
+void DBuffer::Impl::caster_window(const detail::LightSpace& space, double far, glm::dvec2& low,
+                                  glm::dvec2& high) const {
   low = glm::dvec2(1e300);
   high = glm::dvec2(-1e300);
   for (const Caster& caster : casters) {
@@ -154,20 +167,23 @@ void DBuffer::Impl::caster_window(const detail::LightSpace& space, double far, g
       low = glm::min(low, uv - reach);
       high = glm::max(high, uv + reach);
     }
-    if (behind > 0 && behind < caster.mesh->positions().size()) low = glm::dvec2(-1e9), high = glm::dvec2(1e9);
+    if (behind > 0 && behind < caster.mesh->positions().size())
+      low = glm::dvec2(-1e9), high = glm::dvec2(1e9);
   }
 }
 
-void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& options, Plan& plan, StageClock& clock,
-                                  nlohmann::json& counts) const {
+void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& options, Plan& plan,
+                                  StageClock& clock, nlohmann::json& counts) const {
   std::vector<Classification> classes;
   for (const Caster& caster : casters) classes.push_back(classify_faces(*caster.mesh, light));
   clock.finish("classify");
   std::vector<Silhouettes> silhouettes;
-  for (std::size_t i = 0; i < casters.size(); ++i) silhouettes.push_back(find_silhouettes(*casters[i].mesh, classes[i]));
+  for (std::size_t i = 0; i < casters.size(); ++i)
+    silhouettes.push_back(find_silhouettes(*casters[i].mesh, classes[i]));
   clock.finish("silhouette");
   for (std::size_t i = 0; i < casters.size(); ++i)
-    plan.supports.push_back(find_supports(*casters[i].mesh, casters[i].rings, light, classes[i], silhouettes[i]));
+    plan.supports.push_back(
+        find_supports(*casters[i].mesh, casters[i].rings, light, classes[i], silhouettes[i]));
   clock.finish("supports");
   std::vector<detail::FacetReach> reach;
   for (std::size_t i = 0; i < casters.size(); ++i)
@@ -196,8 +212,14 @@ void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& 
     facets += plan.supports[i].facets.size();
     cones += plan.supports[i].cones.size();
   }
-  counts = {{"faces", faces}, {"mixed_faces", mixed}, {"umbra_edges", umbra}, {"penumbra_edges", penumbra},
-            {"band_edges", band}, {"facets", facets}, {"cone_sectors", cones}, {"targets", plan.targets.size()},
+  counts = {{"faces", faces},
+            {"mixed_faces", mixed},
+            {"umbra_edges", umbra},
+            {"penumbra_edges", penumbra},
+            {"band_edges", band},
+            {"facets", facets},
+            {"cone_sectors", cones},
+            {"targets", plan.targets.size()},
             {"entry_triangles", (plan.geometry.penumbra.size() + plan.geometry.umbra.size()) / 3}};
 }
 
@@ -330,7 +352,8 @@ std::span<const NamedValue<VisibilityCurve>> visibility_curves() {
 }
 
 std::span<const NamedValue<Conflict>> conflicts() {
-  static constexpr NamedValue<Conflict> kNames[] = {{Conflict::kNearest, "nearest"}, {Conflict::kFurthest, "furthest"}};
+  static constexpr NamedValue<Conflict> kNames[] = {{Conflict::kNearest, "nearest"},
+                                                    {Conflict::kFurthest, "furthest"}};
   return kNames;
 }
 
@@ -353,7 +376,8 @@ DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& optio
     throw UsageError("D-buffer size must lie in 16 to 8192 texels, not " + std::to_string(options.size));
   if (options.entries < 1 || options.entries > 2)
     throw UsageError("D-buffer entries must be 1 or 2, not " + std::to_string(options.entries));
-  if (options.entries == 2 && (options.contents != DBufferContents::kEdge || options.conflict != Conflict::kNearest))
+  if (options.entries == 2 &&
+      (options.contents != DBufferContents::kEdge || options.conflict != Conflict::kNearest))
     throw UsageError("two D-buffer entries need --dbuffer edge and --conflict nearest");
   impl_->context.make_current();
   return impl_->render(light, options);

@@ -1,10 +1,11 @@
 // The D-buffer: what the light's center sees of penumbra boundaries, and the visibility shader that reads it.
 //
-// In: caster meshes (uploaded once), surface points (uploaded once per camera), a light. Out: visibility per pixel.
-// "Umbra and penumbra volumes" (2004), sections 3 and 4. There a texel stores the distances |cxo|, |cxuv|, |cxpv| and |cxs|;
-// here it stores the occluder's face and depth and *which edge* bounds the penumbra on that line of sight, so that the
-// chord it leaves of the disk is exact for the receiver (no eq. 2 and 3), and the neighbouring edge at a corner is known.
-// Facets are drawn in (1/z)-linear depth and dilated by a texel, so that no texel that touches the penumbra is empty.
+// In: caster meshes (uploaded once), surface points (uploaded once per camera), a light. Out: visibility per
+// pixel. "Umbra and penumbra volumes" (2004), sections 3 and 4. There a texel stores the distances |cxo|,
+// |cxuv|, |cxpv| and |cxs|; here it stores the occluder's face and depth and *which edge* bounds the penumbra
+// on that line of sight, so that the chord it leaves of the disk is exact for the receiver (no eq. 2 and 3),
+// and the neighbouring edge at a corner is known. Facets are drawn in (1/z)-linear depth and dilated by a
+// texel, so that no texel that touches the penumbra is empty.
 #pragma once
 
 #include <memory>
@@ -57,15 +58,15 @@ struct DBufferOptions {
 };
 
 struct DBufferFrame {
-  std::vector<float> visibility;   ///< one per pixel of the surface buffer; 1 where nothing is seen
+  std::vector<float> visibility;  ///< one per pixel of the surface buffer; 1 where nothing is seen
   std::vector<StageTime> stages;
-  nlohmann::json counts;           ///< faces by class, edges, facets, triangles drawn, targets, bytes
+  nlohmann::json counts;  ///< faces by class, edges, facets, triangles drawn, targets, bytes
 };
 
 class DBuffer {
  public:
-  /// Uploads the casters. `context`, `scene` and `rays` must outlive the D-buffer; the context is made current by each
-  /// call.
+  /// Uploads the casters. `context`, `scene` and `rays` must outlive the D-buffer; the context is made
+  /// current by each call.
   DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~DBuffer();
   void set_surface(const SurfaceBuffer& surface);

@@ -14,13 +14,20 @@ struct Uvw {
   double w;
 };
 
-Uvw project(const Vec3& p) { return {glm::dvec2(p.x, p.y) / p.z, 1.0 / p.z}; }
+Uvw project(const Vec3& p) {
+  return {glm::dvec2(p.x, p.y) / p.z, 1.0 / p.z};
+}
 
 class Appender {
  public:
-  Appender(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports, const FacetReach& reach,
-           const EntryGeometryOptions& options, EntryGeometry& out)
-      : mesh_(mesh), space_(space), supports_(supports), reach_(reach), options_(options), out_(out),
+  Appender(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
+           const FacetReach& reach, const EntryGeometryOptions& options, EntryGeometry& out)
+      : mesh_(mesh),
+        space_(space),
+        supports_(supports),
+        reach_(reach),
+        options_(options),
+        out_(out),
         first_(static_cast<std::uint32_t>(out.records.size() / 4)) {}
 
   void run() {
@@ -57,7 +64,8 @@ class Appender {
     out_.records.push_back(point(after ? end_of(supports_.facets[f.next]) : end_of(f), f.next));
   }
 
-  /// The quadrilateral from the edge along the plane w = (cos φ u + sin φ v + κ)/r, down to the farthest receiver.
+  /// The quadrilateral from the edge along the plane w = (cos φ u + sin φ v + κ)/r, down to the farthest
+  /// receiver.
   void add_facet(std::uint32_t i) {
     const SupportFacet& f = supports_.facets[i];
     Vec3 pa = local(begin_of(f)), pb = local(end_of(f));
@@ -89,7 +97,8 @@ class Appender {
     const Uvw apex = project(p);
     const double reach = extent(apex.w, cone_reach) + options_.dilation;
     const double sector = cone.to_angle - cone.from_angle;
-    // A chord of half angle h, pushed out to touch the circle, overshoots by 1/cos h - 1: half a texel is allowed.
+    // A chord of half angle h, pushed out to touch the circle, overshoots by 1/cos h - 1: half a texel is
+    // allowed.
     const double allowed = std::max(1e-3, 0.5 * options_.dilation / reach);
     const double half = std::acos(1.0 / (1.0 + allowed));
     const int segments = std::max(1, static_cast<int>(std::ceil(sector / (2.0 * half))));
@@ -102,7 +111,8 @@ class Appender {
     const double stretch = 1.0 / std::cos(std::min(0.5 * step, 1.0));
     Uvw last = at(cone.from_angle, 1.0);
     for (int k = 0; k <= segments; ++k) {
-      const Uvw next = k < segments ? at(cone.from_angle + (k + 0.5) * step, stretch) : at(cone.to_angle, 1.0);
+      const Uvw next =
+          k < segments ? at(cone.from_angle + (k + 0.5) * step, stretch) : at(cone.to_angle, 1.0);
       const std::uint32_t facet = 2 * k < segments ? cone.from_facet : cone.to_facet;
       for (const Uvw& corner : {apex, last, next}) push(triangles, corner, first_ + facet, apex.w);
       last = next;
@@ -121,10 +131,12 @@ class Appender {
     for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet, c.w);
   }
 
-  /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest receiver.
+  /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest
+  /// receiver.
   double extent(double w, float reach) const {
     constexpr double kMargin = 1.05;  // the reach was probed at a few points only
-    return space_.radius * std::max(0.0, w - std::max(options_.far_weight, w / (kMargin * static_cast<double>(reach))));
+    return space_.radius *
+           std::max(0.0, w - std::max(options_.far_weight, w / (kMargin * static_cast<double>(reach))));
   }
 
   /// Cuts the segment at the near depth; false where nothing is left.
@@ -137,8 +149,8 @@ class Appender {
   }
 
   void push(std::vector<EntryVertex>& triangles, const Uvw& p, std::uint32_t facet, double edge_weight) {
-    triangles.push_back({static_cast<float>(p.uv.x), static_cast<float>(p.uv.y), static_cast<float>(p.w), facet,
-                         static_cast<float>(edge_weight)});
+    triangles.push_back({static_cast<float>(p.uv.x), static_cast<float>(p.uv.y), static_cast<float>(p.w),
+                         facet, static_cast<float>(edge_weight)});
     out_.low = glm::min(out_.low, p.uv);
     out_.high = glm::max(out_.high, p.uv);
   }
@@ -155,7 +167,10 @@ class Appender {
 }  // namespace
 
 LightSpace::LightSpace(const DiskLight& light, double scale_factor)
-    : axes(light_frame(light)), center(light.center), scale(scale_factor), radius(light.radius * scale_factor) {}
+    : axes(light_frame(light)),
+      center(light.center),
+      scale(scale_factor),
+      radius(light.radius * scale_factor) {}
 
 Vec3 LightSpace::to_light(const Vec3& world) const {
   const Vec3 d = (world - center) * scale;

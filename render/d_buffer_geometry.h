@@ -1,9 +1,9 @@
 // The D-buffer's own geometry: facets and cone sectors as seen from the light's center.
 //
-// In the coordinates (u, v, w) = (x/z, y/z, 1/z) of the light's frame everything is flat: the plane that touches the disk
-// of radius r at rim angle φ is w = (cos φ u + sin φ v + κ)/r, of slope 1/r for every edge, and the boundary at a vertex
-// is a circular cone of that slope. So depth is linear on the screen and needs no per-pixel correction (the 2004 paper,
-// section 3.2, interpolates distances and accepts the error).
+// In the coordinates (u, v, w) = (x/z, y/z, 1/z) of the light's frame everything is flat: the plane that
+// touches the disk of radius r at rim angle φ is w = (cos φ u + sin φ v + κ)/r, of slope 1/r for every edge,
+// and the boundary at a vertex is a circular cone of that slope. So depth is linear on the screen and needs
+// no per-pixel correction (the 2004 paper, section 3.2, interpolates distances and accepts the error).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,8 @@
 
 namespace penumbra::detail {
 
-/// A change from world to the light's frame: axes u, v, w of the light, origin its center, lengths times a power of two.
+/// A change from world to the light's frame: axes u, v, w of the light, origin its center, lengths times a
+/// power of two.
 struct LightSpace {
   LightSpace(const DiskLight& light, double scale_factor);
   Vec3 to_light(const Vec3& world) const;
@@ -34,8 +35,8 @@ struct EntryVertex {
 
 struct EntryGeometry {
   std::vector<EntryVertex> penumbra, umbra;  ///< triangles, three vertices each
-  /// Four points a facet, light's frame: previous, a, b, next (directed so that the lit side is positive); the fourth
-  /// number of the outer two is 1 + the previous or next facet, as bits; 0: none.
+  /// Four points a facet, light's frame: previous, a, b, next (directed so that the lit side is positive);
+  /// the fourth number of the outer two is 1 + the previous or next facet, as bits; 0: none.
   std::vector<glm::vec4> records;
   glm::dvec2 low{1e300}, high{-1e300};  ///< bounds of (u, v)
 };
@@ -43,7 +44,7 @@ struct EntryGeometry {
 struct EntryGeometryOptions {
   double near_depth;  ///< edges are cut at this depth
   double far_weight;  ///< 1/z of the farthest receiver: facets end there
-  double dilation;    ///< in (u, v): facets grow by this to all sides, so that every texel they touch is drawn
+  double dilation;  ///< in (u, v): facets grow by this to all sides, so that every texel they touch is drawn
 };
 
 /// Adds one caster. Cost O(facets + cone segments).

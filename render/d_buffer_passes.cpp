@@ -9,7 +9,8 @@ using gl::Object;
 constexpr GLuint kNoId[4] = {0, 0, 0, 0};
 
 template <class T>
-void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std::vector<T>& data, GLenum usage) {
+void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std::vector<T>& data,
+          GLenum usage) {
   gl.BindBuffer(kind, buffer);
   gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
@@ -20,15 +21,21 @@ DBufferPasses::DBufferPasses(const gl::Functions& gl)
     : gl_(gl),
       occluder_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_occluder.vert.glsl"},
                              {GL_FRAGMENT_SHADER, "d_buffer_occluder.frag.glsl"}}),
-      entry_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"}, {GL_FRAGMENT_SHADER, "d_buffer_entry.frag.glsl"}}),
+      entry_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"},
+                          {GL_FRAGMENT_SHADER, "d_buffer_entry.frag.glsl"}}),
       filtered_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"},
                              {GL_FRAGMENT_SHADER, "d_buffer_entry_filtered.frag.glsl"}}),
-      caster_points_(gl, Object::Kind::kBuffer), caster_indices_(gl, Object::Kind::kBuffer),
-      caster_array_(gl, Object::Kind::kVertexArray), penumbra_vertices_(gl, Object::Kind::kBuffer),
-      umbra_vertices_(gl, Object::Kind::kBuffer), entry_array_(gl, Object::Kind::kVertexArray),
-      record_buffer_(gl, Object::Kind::kBuffer), record_texture_(gl, Object::Kind::kTexture) {}
+      caster_points_(gl, Object::Kind::kBuffer),
+      caster_indices_(gl, Object::Kind::kBuffer),
+      caster_array_(gl, Object::Kind::kVertexArray),
+      penumbra_vertices_(gl, Object::Kind::kBuffer),
+      umbra_vertices_(gl, Object::Kind::kBuffer),
+      entry_array_(gl, Object::Kind::kVertexArray),
+      record_buffer_(gl, Object::Kind::kBuffer),
+      record_texture_(gl, Object::Kind::kTexture) {}
 
-void DBufferPasses::upload_casters(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& indices,
+void DBufferPasses::upload_casters(const std::vector<glm::vec3>& points,
+                                   const std::vector<std::uint32_t>& indices,
                                    std::vector<CasterRange> casters) {
   casters_ = std::move(casters);
   gl_.BindVertexArray(caster_array_);
@@ -75,15 +82,16 @@ void DBufferPasses::draw_casters(const Target& target, bool cull) {
   for (const CasterRange& caster : casters_) {
     if (cull && caster.closed) gl_.Enable(GL_CULL_FACE);
     gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
-    const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) * sizeof(std::uint32_t));
+    const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) *
+                                                      sizeof(std::uint32_t));
     gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(caster.index_count), GL_UNSIGNED_INT, first);
     gl_.Disable(GL_CULL_FACE);
   }
 }
 
 /// First surface of all; then the last of those that face the light's center.
-void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
-                                   const DBufferLayers& layers) {
+void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes,
+                                   const glm::vec3& offset, const DBufferLayers& layers) {
   occluder_program_.use();
   gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &axes[0][0]);
   gl_.Uniform3f(occluder_program_.uniform("light_offset"), offset.x, offset.y, offset.z);
@@ -97,7 +105,8 @@ void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm
     gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
     draw_casters(targets[i], false);
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
-    gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.last.texture, 0, static_cast<int>(i));
+    gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.last.texture, 0,
+                                static_cast<int>(i));
     gl_.ClearBufferfv(GL_DEPTH, 0, &nearest);
     gl_.DepthFunc(GL_LESS);
     draw_casters(targets[i], true);
@@ -115,13 +124,16 @@ void DBufferPasses::draw_entries(const std::vector<Target>& targets, const DBuff
   draw_kind(targets, layers, layers.below, umbra, Against::kBehindLast, options);
 }
 
-void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into,
-                              const Entries& entries, Against against, const DBufferOptions& options) {
+void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers,
+                              const EntryLayers& into, const Entries& entries, Against against,
+                              const DBufferOptions& options) {
   constexpr auto kStride = sizeof(EntryVertex);
   gl_.BindBuffer(GL_ARRAY_BUFFER, entries.vertices);
   gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
-  gl_.VertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride, reinterpret_cast<const void*>(offsetof(EntryVertex, facet)));
-  gl_.VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, kStride, reinterpret_cast<const void*>(offsetof(EntryVertex, edge_weight)));
+  gl_.VertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride,
+                           reinterpret_cast<const void*>(offsetof(EntryVertex, facet)));
+  gl_.VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, kStride,
+                          reinterpret_cast<const void*>(offsetof(EntryVertex, edge_weight)));
   for (GLuint attribute : {0u, 1u, 2u}) gl_.EnableVertexAttribArray(attribute);
   draw_layer(targets, layers, into.first, nullptr, entries, against, options);
   if (layers.entries > 1) draw_layer(targets, layers, into.second, &into.first, entries, against, options);
@@ -142,8 +154,9 @@ void DBufferPasses::set_filter(const Layers& surface, const Layer* after, Agains
 }
 
 /// The nearest (or furthest) entries of one kind, or with `after` the nearest that come after those.
-void DBufferPasses::draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into,
-                               const Layer* after, const Entries& entries, Against against, const DBufferOptions& options) {
+void DBufferPasses::draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers,
+                               const Layer& into, const Layer* after, const Entries& entries, Against against,
+                               const DBufferOptions& options) {
   const bool furthest = options.conflict == Conflict::kFurthest;
   const Layers& surface = against == Against::kFirst ? layers.occluder.depth : layers.last;
   // Nearest in front of a surface needs no filter: the layer starts with the surface's depth.
@@ -152,8 +165,8 @@ void DBufferPasses::draw_layer(const std::vector<Target>& targets, const DBuffer
   program.use();
   gl_.Uniform1i(program.uniform("store_edge_weight"), options.contents == DBufferContents::kDistances);
   if (starts_with_surface)
-    gl_.CopyImageSubData(surface.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, into.depth.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0,
-                         0, layers.size, layers.size, layers.count);
+    gl_.CopyImageSubData(surface.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, into.depth.texture,
+                         GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, layers.size, layers.size, layers.count);
   else
     set_filter(surface, after, against);
   gl_.DepthFunc(furthest ? GL_LESS : GL_GREATER);

@@ -31,7 +31,8 @@ class DBufferPasses {
   /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame).
   void draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
                       const DBufferLayers& layers);
-  void draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers, const DBufferOptions& options);
+  void draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
+                    const DBufferOptions& options);
   GLuint records() const { return record_texture_; }
 
  private:
@@ -41,10 +42,10 @@ class DBufferPasses {
     std::size_t count;
   };
   void draw_casters(const Target& target, bool cull);
-  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into, const Entries& entries,
-                 Against against, const DBufferOptions& options);
-  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into, const Layer* after,
-                  const Entries& entries, Against against, const DBufferOptions& options);
+  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into,
+                 const Entries& entries, Against against, const DBufferOptions& options);
+  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into,
+                  const Layer* after, const Entries& entries, Against against, const DBufferOptions& options);
   void set_filter(const Layers& surface, const Layer* after, Against against) const;
   void set_target(const gl::Program& program, const Target& target) const;
   void attach(const Layer& layer, int index) const;
@@ -52,8 +53,8 @@ class DBufferPasses {
 
   const gl::Functions& gl_;
   gl::Program occluder_program_, entry_program_, filtered_program_;
-  gl::Object caster_points_, caster_indices_, caster_array_, penumbra_vertices_, umbra_vertices_, entry_array_,
-      record_buffer_, record_texture_;
+  gl::Object caster_points_, caster_indices_, caster_array_, penumbra_vertices_, umbra_vertices_,
+      entry_array_, record_buffer_, record_texture_;
   std::vector<CasterRange> casters_;
   std::size_t penumbra_count_ = 0, umbra_count_ = 0;
 };

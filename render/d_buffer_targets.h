@@ -15,10 +15,12 @@ struct Target {
   std::array<double, 4> window;  ///< left, right, bottom, top at forward distance 1
 };
 
-/// Widest |x/z| or |y/z| that one perspective may have; beyond it the sides of a hemicube keep the texels even.
+/// Widest |x/z| or |y/z| that one perspective may have; beyond it the sides of a hemicube keep the texels
+/// even.
 inline constexpr double kWidestWindow = 2.5;
 
-/// One perspective fitted to `low`..`high` in (x/z, y/z) where that is narrow enough, else the five sides of a hemicube.
+/// One perspective fitted to `low`..`high` in (x/z, y/z) where that is narrow enough, else the five sides of
+/// a hemicube.
 std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high);
 
 }  // namespace penumbra::detail

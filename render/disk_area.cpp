@@ -10,26 +10,33 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Length of the chord at distance `d` that lies in the half-plane at distance `other`, whose normal makes the given angle.
+/// Length of the chord at distance `d` that lies in the half-plane at distance `other`, whose normal makes
+/// the given angle.
 double kept_length(double d, double other, double cosine, double sine) {
   const double half = std::sqrt(std::max(0.0, 1.0 - d * d));
-  // (d cos - other) / sin without cancellation. The large term is the same for both chords but for its sign, so that
-  // what sin has lost where they nearly coincide drops out of δ1 L1 + δ2 L2.
+  // (d cos - other) / sin without cancellation. The large term is the same for both chords but for its sign,
+  // so that what sin has lost where they nearly coincide drops out of δ1 L1 + δ2 L2.
   const double s = std::max(sine, 1e-300);
-  const double start = cosine > 0.0 ? (d - other) / s - d * sine / (1.0 + cosine) : d * sine / (1.0 - cosine) - (d + other) / s;
+  const double start = cosine > 0.0 ? (d - other) / s - d * sine / (1.0 + cosine)
+                                    : d * sine / (1.0 - cosine) - (d + other) / s;
   return half - std::clamp(start, -half, half);
 }
 
 /// Overlap of the intervals [-p, p] and [at - q, at + q].
-double overlap(double p, double at, double q) { return std::max(0.0, std::min(p, at + q) - std::max(-p, at - q)); }
+double overlap(double p, double at, double q) {
+  return std::max(0.0, std::min(p, at + q) - std::max(-p, at - q));
+}
 
 }  // namespace
 
-Vec3 edge_plane(const Vec3& x, const Vec3& a, const Vec3& b) { return glm::cross(a - x, b - a); }
+Vec3 edge_plane(const Vec3& x, const Vec3& a, const Vec3& b) {
+  return glm::cross(a - x, b - a);
+}
 
 Chord chord_of_plane(const Vec3& n, const Vec3& x, double r) {
   const double length = std::hypot(n.x, n.y);
-  return {length > 0.0 ? glm::dvec2(n.x, n.y) / length : glm::dvec2(1.0, 0.0), -glm::dot(n, x) / (r * length)};
+  return {length > 0.0 ? glm::dvec2(n.x, n.y) / length : glm::dvec2(1.0, 0.0),
+          -glm::dot(n, x) / (r * length)};
 }
 
 double half_plane_area(double delta) {

@@ -5,7 +5,8 @@
 
 namespace penumbra::detail {
 
-/// A 32-bit integer mix with low bias: three xor-shifts and two multiplications (constants found by C. Wellons' search).
+/// A 32-bit integer mix with low bias: three xor-shifts and two multiplications (constants found by C.
+/// Wellons' search).
 inline std::uint32_t mix(std::uint32_t x) {
   x ^= x >> 16;
   x *= 0x7feb352du;
@@ -15,14 +16,17 @@ inline std::uint32_t mix(std::uint32_t x) {
   return x;
 }
 
-inline float unit_float(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+inline float unit_float(std::uint32_t bits) {
+  return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
 
 struct DiskPoint {
   float x, y;
 };
 
-/// Shirley and Chiu's concentric map of the unit square to the unit disk (1997): equal areas to equal areas. The sine and
-/// cosine of an angle in [-π/4, π/4] are Taylor sums good to float precision, so that loops over it vectorise.
+/// Shirley and Chiu's concentric map of the unit square to the unit disk (1997): equal areas to equal areas.
+/// The sine and cosine of an angle in [-π/4, π/4] are Taylor sums good to float precision, so that loops over
+/// it vectorise.
 inline DiskPoint concentric_disk(float s, float t) {
   const float a = 2.0f * s - 1.0f, b = 2.0f * t - 1.0f;
   const bool wide = a * a > b * b;
@@ -30,7 +34,8 @@ inline DiskPoint concentric_disk(float s, float t) {
   const float other = wide ? b : a;
   const float angle = radius != 0.0f ? 0.785398163f * other / radius : 0.0f;
   const float q = angle * angle;
-  const float sine = angle * (1.0f + q * (-1.0f / 6 + q * (1.0f / 120 + q * (-1.0f / 5040 + q * (1.0f / 362880)))));
+  const float sine =
+      angle * (1.0f + q * (-1.0f / 6 + q * (1.0f / 120 + q * (-1.0f / 5040 + q * (1.0f / 362880)))));
   const float cosine = 1.0f + q * (-1.0f / 2 + q * (1.0f / 24 + q * (-1.0f / 720 + q * (1.0f / 40320))));
   return wide ? DiskPoint{radius * cosine, radius * sine} : DiskPoint{radius * sine, radius * cosine};
 }
@@ -57,7 +62,7 @@ inline DiskPoint disk_sample(std::uint32_t key, std::uint32_t i, float column, f
 /// The stream of a pixel: differs in every bit with seed and pixel.
 inline std::uint32_t sample_key(std::uint64_t seed, std::uint32_t pixel) {
   return mix(mix(pixel + 0x51633e2du) ^ mix(static_cast<std::uint32_t>(seed) * 0x2c1b3c6du +
-                                             static_cast<std::uint32_t>(seed >> 32) + 0x297a2d39u));
+                                            static_cast<std::uint32_t>(seed >> 32) + 0x297a2d39u));
 }
 
 }  // namespace penumbra::detail

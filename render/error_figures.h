@@ -1,8 +1,8 @@
 // How wrong an image is: the figures of `penumbra compare`.
 //
-// Errors are of visibility. The reference is noisy itself: with two independently scrambled references r1 and r2, the mean
-// of (m - r1)(m - r2) is an unbiased estimate of the mean squared error, since the two noises are independent. True
-// penumbra is 0 < (r1 + r2)/2 < 1.
+// Errors are of visibility. The reference is noisy itself: with two independently scrambled references r1 and
+// r2, the mean of (m - r1)(m - r2) is an unbiased estimate of the mean squared error, since the two noises
+// are independent. True penumbra is 0 < (r1 + r2)/2 < 1.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@ namespace penumbra {
 
 struct ErrorFigures {
   std::size_t pixels = 0;
-  double rmse = 0.0;              ///< sqrt(max(0, mse))
-  double mse = 0.0;               ///< noise taken out; may be slightly negative
+  double rmse = 0.0;                       ///< sqrt(max(0, mse))
+  double mse = 0.0;                        ///< noise taken out; may be slightly negative
   double rmse_low = 0.0, rmse_high = 0.0;  ///< 95% bootstrap interval
-  double mean = 0.0;              ///< of m - (r1 + r2)/2: positive is too bright
+  double mean = 0.0;                       ///< of m - (r1 + r2)/2: positive is too bright
   double mean_absolute = 0.0;
   double median_absolute = 0.0, p99_absolute = 0.0, max_absolute = 0.0;  ///< against (r1 + r2)/2
 };

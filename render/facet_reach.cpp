@@ -10,7 +10,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Rays pass an edge at this distance (local units), on the lit side: above float's noise, below any feature that counts.
+/// Rays pass an edge at this distance (local units), on the lit side: above float's noise, below any feature
+/// that counts.
 constexpr double kClearance = 2.0 * kRayOffset;
 /// A hit this much nearer than the edge hides it; nearer ones are the edge's own faces.
 constexpr double kHidden = 1.0 - 1e-3;
@@ -25,7 +26,8 @@ class Prober {
     const RayFrame& frame = rays_.frame();
     const Vec3 tangent = axes_.v * std::cos(angle) - axes_.u * std::sin(angle);
     const Vec3 contact = center_ + radius_ * (axes_.u * std::cos(angle) + axes_.v * std::sin(angle));
-    // The plane that touches the rim at the contact and passes the target; its normal points away from the disk.
+    // The plane that touches the rim at the contact and passes the target; its normal points away from the
+    // disk.
     Vec3 beyond = glm::cross(tangent, target - contact);
     const double size = glm::length(beyond);
     if (!(size > 0.0)) return std::numeric_limits<float>::infinity();
@@ -61,7 +63,8 @@ class Prober {
 
 }  // namespace
 
-FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports, const RayScene& rays) {
+FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                      const RayScene& rays) {
   const Prober prober(light, rays);
   FacetReach out;
   out.facets.resize(supports.facets.size());
@@ -80,7 +83,8 @@ FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Su
     float reach = 0.0f;
     for (double t : {0.5, 0.1, 0.9})
       if (std::isfinite(reach))
-        reach = std::max(reach, prober.reach(mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle), c.kind));
+        reach = std::max(reach, prober.reach(mesh.position(c.vertex),
+                                             c.from_angle + t * (c.to_angle - c.from_angle), c.kind));
     out.cones[i] = reach;
   };
   rays.impl().arena.execute([&] {

@@ -14,7 +14,8 @@ struct Image {
   std::map<std::string, std::vector<float>> channels;  ///< width·height each, row-major
 
   std::vector<float>& add(const std::string& name, float value = 0.0f);
-  const std::vector<float>& at(const std::string& name) const;  ///< throws UsageError naming the missing channel
+  const std::vector<float>& at(
+      const std::string& name) const;  ///< throws UsageError naming the missing channel
   bool has(const std::string& name) const { return channels.count(name) != 0; }
 };
 
@@ -29,6 +30,7 @@ std::vector<unsigned char> encode_srgb(const Image& image, double exposure_stops
 void write_png(const std::filesystem::path& path, const Image& image, double exposure_stops = 0.0);
 
 /// 8-bit RGB already encoded, width·height·3. For pictures made of pictures.
-void write_png(const std::filesystem::path& path, int width, int height, const std::vector<unsigned char>& rgb);
+void write_png(const std::filesystem::path& path, int width, int height,
+               const std::vector<unsigned char>& rgb);
 
 }  // namespace penumbra

@@ -17,8 +17,8 @@ void throw_embree_error(void*, RTCError, const char* text) {
 
 RTCGeometry make_geometry(RTCDevice device, const TriangleMesh& mesh, const RayFrame& frame) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), mesh.positions().size()));
+  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions().size()));
   for (const Vec3& p : mesh.positions()) {
     const Vec3 q = frame.to_local(p);
     for (int k = 0; k < 3; ++k) *points++ = static_cast<float>(q[k]);
@@ -50,7 +50,9 @@ RayFrame ray_frame(const Scene& scene) {
 
 RayScene::Impl::Impl(const Scene& scene, const RayFrame& frame, int threads) : arena(thread_count(threads)) {
   device = rtcNewDevice(nullptr);
-  if (!device) throw SystemError("Embree does not start: no device (error " + std::to_string(rtcGetDeviceError(nullptr)) + ")");
+  if (!device)
+    throw SystemError("Embree does not start: no device (error " +
+                      std::to_string(rtcGetDeviceError(nullptr)) + ")");
   rtcSetDeviceErrorFunction(device, throw_embree_error, nullptr);
   all = rtcNewScene(device);
   casters = rtcNewScene(device);

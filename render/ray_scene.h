@@ -1,7 +1,7 @@
 // The scene as Embree sees it: rays for the surface buffer and occlusion rays for the reference.
 //
-// Float rays need a frame: everything is moved to the light's centre and scaled by a power of two to about unit size, so
-// that float keeps its digits where shadows are decided (`RayFrame`).
+// Float rays need a frame: everything is moved to the light's centre and scaled by a power of two to about
+// unit size, so that float keeps its digits where shadows are decided (`RayFrame`).
 #pragma once
 
 #include <memory>
@@ -21,9 +21,9 @@ struct RayFrame {
 /// The frame of a scene: origin at the light, bounds of objects and light scaled into [-1, 1].
 RayFrame ray_frame(const Scene& scene);
 
-/// Rays start this far (local units) from the surface, along the geometric normal towards the viewer. Float coordinates
-/// of size 1 round to 6e-8; with Embree's robust mode 1e-5 keeps a surface from shadowing itself, and moves contact
-/// shadows by a hundred-thousandth of the scene.
+/// Rays start this far (local units) from the surface, along the geometric normal towards the viewer. Float
+/// coordinates of size 1 round to 6e-8; with Embree's robust mode 1e-5 keeps a surface from shadowing itself,
+/// and moves contact shadows by a hundred-thousandth of the scene.
 inline constexpr double kRayOffset = 1e-5;
 
 class RayScene {

@@ -10,7 +10,9 @@
 namespace penumbra {
 
 /// 0 means all cores.
-inline int thread_count(int threads) { return threads > 0 ? threads : tbb::task_arena::automatic; }
+inline int thread_count(int threads) {
+  return threads > 0 ? threads : tbb::task_arena::automatic;
+}
 
 struct RayScene::Impl {
   Impl(const Scene& scene, const RayFrame& frame, int threads);

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kLanes = 16;
 
-// The loops over lanes are compiled for several instruction sets; which one runs is chosen when the program starts.
+// The loops over lanes are compiled for several instruction sets; which one runs is chosen when the program
+// starts.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define PENUMBRA_VECTOR_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
 #else
@@ -62,16 +63,16 @@ struct Aim {
 };
 
 PENUMBRA_VECTOR_CLONES
-void aim_at_samples(const Receiver& from, const LocalLight& light, const StratumTable& table, std::uint32_t key, int first,
-                    Aim& out) {
+void aim_at_samples(const Receiver& from, const LocalLight& light, const StratumTable& table,
+                    std::uint32_t key, int first, Aim& out) {
   const float per_column = 1.0f / static_cast<float>(table.strata.columns);
   const float per_row = 1.0f / static_cast<float>(table.strata.rows);
   const glm::vec3 base = light.center - from.origin, u = light.u, v = light.v, n = from.normal;
   const float* columns = table.columns.data() + first;
   const float* rows = table.rows.data() + first;
   for (int k = 0; k < kLanes; ++k) {
-    const detail::DiskPoint p =
-        detail::disk_sample(key, static_cast<std::uint32_t>(first + k), columns[k], rows[k], per_column, per_row);
+    const detail::DiskPoint p = detail::disk_sample(key, static_cast<std::uint32_t>(first + k), columns[k],
+                                                    rows[k], per_column, per_row);
     out.x[k] = base.x + u.x * p.x + v.x * p.y;
     out.y[k] = base.y + u.y * p.x + v.y * p.y;
     out.z[k] = base.z + u.z * p.x + v.z * p.y;
@@ -114,8 +115,8 @@ void trace_singly(const RayScene& rays, const int* valid, RTCIntersectContext& c
 }
 
 /// `all`: also trace what is below the horizon, for the unblocked count.
-Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight& light, const StratumTable& table,
-                      std::uint32_t key, bool all, bool packets) {
+Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight& light,
+                      const StratumTable& table, std::uint32_t key, bool all, bool packets) {
   Counts counts;
   Aim aim;
   alignas(64) RTCRay16 packet;
@@ -143,7 +144,8 @@ Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight&
     else
       trace_singly(rays, valid, context, packet);
     for (int k = 0; k < kLanes; ++k) {
-      const int open = valid[k] & (packet.tfar[k] >= 0.0f ? -1 : 0);  // Embree sets tfar to -infinity at a hit
+      const int open =
+          valid[k] & (packet.tfar[k] >= 0.0f ? -1 : 0);  // Embree sets tfar to -infinity at a hit
       counts.visible -= open & aim.above[k];
       counts.unblocked -= open;
     }
@@ -198,15 +200,16 @@ ReferenceResult trace_reference(const Scene& scene, const RayScene& rays, const 
       if (with_unblocked) out.unblocked[i] = 0.0f;
       return;
     }
-    const Counts counts = trace_receiver(rays, local_receiver(surface, pixel, rays.frame()), light, table,
-                                         detail::sample_key(options.seed, pixels[i]), with_unblocked,
-                                         options.packets);
+    const Counts counts =
+        trace_receiver(rays, local_receiver(surface, pixel, rays.frame()), light, table,
+                       detail::sample_key(options.seed, pixels[i]), with_unblocked, options.packets);
     out.visibility[i] = static_cast<float>(counts.visible) * per_sample;
     if (with_unblocked) out.unblocked[i] = static_cast<float>(counts.unblocked) * per_sample;
     traced += counts.rays;
   });
   out.rays = traced;
-  out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  out.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return out;
 }
 
@@ -238,7 +241,8 @@ ReferenceResult trace_hard(const Scene& scene, const RayScene& rays, const Surfa
     ++traced;
   });
   out.rays = traced;
-  out.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  out.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   return out;
 }
 

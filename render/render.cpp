@@ -16,7 +16,8 @@ struct NamedMethod {
   const char* name;
 };
 constexpr std::array kMethods{NamedMethod{Method::kNone, "none"}, NamedMethod{Method::kHard, "hard"},
-                              NamedMethod{Method::kDBuffer, "dbuffer"}, NamedMethod{Method::kReference, "reference"}};
+                              NamedMethod{Method::kDBuffer, "dbuffer"},
+                              NamedMethod{Method::kReference, "reference"}};
 
 std::vector<std::uint32_t> every_pixel(const SurfaceBuffer& surface) {
   std::vector<std::uint32_t> pixels(surface.size());
@@ -24,7 +25,9 @@ std::vector<std::uint32_t> every_pixel(const SurfaceBuffer& surface) {
   return pixels;
 }
 
-int used_threads(int threads) { return threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency()); }
+int used_threads(int threads) {
+  return threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+}
 
 nlohmann::json to_json(const std::vector<StageTime>& stages) {
   auto out = nlohmann::json::object();
@@ -66,8 +69,8 @@ struct Renderer::State {
   /// Visibility by the chosen method; fills stages and stats.
   std::vector<float> visibility(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
                                 nlohmann::json& stats);
-  std::vector<float> by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
-                                 nlohmann::json& stats);
+  std::vector<float> by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface,
+                                 StageClock& clock, nlohmann::json& stats);
 };
 
 std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface,
@@ -102,12 +105,15 @@ std::vector<float> Renderer::State::visibility(const RenderOptions& options, con
   if (options.method == Method::kNone) {
     std::vector<float> open(surface.size(), 1.0f);
     for (std::size_t i = 0; i < surface.size(); ++i)
-      if (surface.hit(i)) open[i] = static_cast<float>(fraction_above_horizon(scene.light, surface.position[i], surface.normal[i]));
+      if (surface.hit(i))
+        open[i] =
+            static_cast<float>(fraction_above_horizon(scene.light, surface.position[i], surface.normal[i]));
     clock.finish("visibility");
     return open;
   }
   if (options.method == Method::kReference && !point) {
-    ReferenceResult r = trace_reference(scene, rays, surface, pixels, options.reference, false, options.progress);
+    ReferenceResult r =
+        trace_reference(scene, rays, surface, pixels, options.reference, false, options.progress);
     clock.finish("visibility");
     stats["options"] = {{"samples", r.samples}, {"seed", options.reference.seed}};
     stats["counts"] = {{"rays", r.rays}};
@@ -122,13 +128,15 @@ std::vector<float> Renderer::State::visibility(const RenderOptions& options, con
   return std::move(r.visibility);
 }
 
-Renderer::Renderer(const Scene& scene, const RenderOptions& options) : state_(std::make_unique<State>(scene, options)) {}
+Renderer::Renderer(const Scene& scene, const RenderOptions& options)
+    : state_(std::make_unique<State>(scene, options)) {}
 Renderer::~Renderer() = default;
 
 RenderResult Renderer::render_frame(const RenderOptions& options) {
   RenderResult out;
   StageClock clock;
-  out.stats = {{"method", name_of(options.method)}, {"options", nlohmann::json::object()},
+  out.stats = {{"method", name_of(options.method)},
+               {"options", nlohmann::json::object()},
                {"counts", nlohmann::json::object()}};
   out.surface = make_surface_buffer(state_->scene, state_->rays, options.width, options.height);
   clock.finish("surface_buffer");

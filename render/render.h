@@ -1,4 +1,5 @@
-// One image: scene, method and options in; channels, stage times and counts out. What `penumbra render` calls.
+// One image: scene, method and options in; channels, stage times and counts out. What `penumbra render`
+// calls.
 //
 //   surface_buffer.h  what the camera sees          (the same points for every method)
 //   visibility        by the chosen method          (reference.h, d_buffer.h, hard shadow, none)
@@ -28,9 +29,9 @@ std::vector<std::string> method_names();
 
 struct RenderOptions {
   Method method = Method::kDBuffer;
-  int width = 640, height = 480;     ///< pixels
-  int threads = 0;                   ///< 0: all cores
-  int warm_up = 0;                   ///< frames rendered and thrown away before the one that is timed
+  int width = 640, height = 480;  ///< pixels
+  int threads = 0;                ///< 0: all cores
+  int warm_up = 0;                ///< frames rendered and thrown away before the one that is timed
   gl::Backend backend = gl::Backend::kOsMesa;
   ReferenceOptions reference;
   DBufferOptions d_buffer;
@@ -38,11 +39,11 @@ struct RenderOptions {
 };
 
 struct RenderResult {
-  Image image;                       ///< every channel of the README
+  Image image;  ///< every channel of the README
   SurfaceBuffer surface;
-  std::vector<StageTime> stages;     ///< in order
-  double frame_ms = 0.0;             ///< all stages that a new frame needs (no file output, no one-time set-up)
-  nlohmann::json stats;              ///< what --stats writes
+  std::vector<StageTime> stages;  ///< in order
+  double frame_ms = 0.0;          ///< all stages that a new frame needs (no file output, no one-time set-up)
+  nlohmann::json stats;           ///< what --stats writes
 };
 
 RenderResult render(const Scene& scene, const RenderOptions& options);

@@ -1,5 +1,5 @@
-// A scene: one disk light, a camera, objects in world space. Read from JSON (or a bare mesh file), with warnings for what
-// was not understood.
+// A scene: one disk light, a camera, objects in world space. Read from JSON (or a bare mesh file), with
+// warnings for what was not understood.
 #pragma once
 
 #include <filesystem>
@@ -14,21 +14,21 @@
 namespace penumbra {
 
 struct SceneObject {
-  std::string name;      ///< the mesh's path as the scene file has it
-  TriangleMesh mesh;     ///< world space
-  Vec3 albedo{0.8};      ///< linear RGB
+  std::string name;   ///< the mesh's path as the scene file has it
+  TriangleMesh mesh;  ///< world space
+  Vec3 albedo{0.8};   ///< linear RGB
   bool casts = true;
 };
 
 struct Scene {
   DiskLight light;
-  Vec3 radiance{10.0};   ///< linear RGB, W/(m² sr) if a scene unit is a metre; at radius 0 the intensity, W/sr
+  Vec3 radiance{10.0};  ///< linear RGB, W/(m² sr) if a scene unit is a metre; at radius 0 the intensity, W/sr
   Camera camera;
   std::vector<SceneObject> objects;
   nlohmann::json document;  ///< the file as read, keys beginning with `x-` included
 
-  Bounds bounds() const;          ///< of all objects
-  Bounds caster_bounds() const;   ///< of the objects that cast
+  Bounds bounds() const;         ///< of all objects
+  Bounds caster_bounds() const;  ///< of the objects that cast
 };
 
 struct SceneOptions {
@@ -37,15 +37,17 @@ struct SceneOptions {
 
 struct LoadedScene {
   Scene scene;
-  std::vector<std::string> warnings;  ///< one line each: unknown keys, what meshes needed (faces left out, split vertices)
+  std::vector<std::string>
+      warnings;  ///< one line each: unknown keys, what meshes needed (faces left out, split vertices)
 };
 
-/// Reads a scene file (*.json) or makes a scene of a bare mesh: the mesh on a floor that does not cast, with a light and a
-/// camera that suit its bounds. Relative mesh paths start at the scene file's folder. Throws SceneError or MeshError.
+/// Reads a scene file (*.json) or makes a scene of a bare mesh: the mesh on a floor that does not cast, with
+/// a light and a camera that suit its bounds. Relative mesh paths start at the scene file's folder. Throws
+/// SceneError or MeshError.
 LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options = {});
 
 /// The same from a parsed document; `folder` is where relative mesh paths start, `name` is used in messages.
-LoadedScene parse_scene(const nlohmann::json& document, const std::filesystem::path& folder, const std::string& name,
-                        const SceneOptions& options = {});
+LoadedScene parse_scene(const nlohmann::json& document, const std::filesystem::path& folder,
+                        const std::string& name, const SceneOptions& options = {});
 
 }  // namespace penumbra

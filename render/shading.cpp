@@ -1,6 +1,7 @@
-// In the light's frame, x = (X, Y, Z) and the disk of radius ρ in z = 0, Lambert's integral over the part of the rim from
-// φ0 to φ1 is -1/2 ∫ n·(r × r') / |r|² dφ with r the rim point seen from x. With ψ the angle from the direction of (X, Y)
-// the integrand is (A + B cos ψ + D sin ψ) / (E - K cos ψ): an elementary integral (`rim_part`).
+// In the light's frame, x = (X, Y, Z) and the disk of radius ρ in z = 0, Lambert's integral over the part of
+// the rim from φ0 to φ1 is -1/2 ∫ n·(r × r') / |r|² dφ with r the rim point seen from x. With ψ the angle
+// from the direction of (X, Y) the integrand is (A + B cos ψ + D sin ψ) / (E - K cos ψ): an elementary
+// integral (`rim_part`).
 #include "render/shading.h"
 
 #include <tbb/blocked_range.h>
@@ -23,7 +24,8 @@ struct InLightFrame {
   Vec3 x, n;
 };
 
-InLightFrame to_light_frame(const DiskLight& light, const LightFrame& f, const Vec3& world, const Vec3& normal) {
+InLightFrame to_light_frame(const DiskLight& light, const LightFrame& f, const Vec3& world,
+                            const Vec3& normal) {
   const Vec3 d = world - light.center;
   return {{glm::dot(d, f.u), glm::dot(d, f.v), glm::dot(d, f.w)},
           {glm::dot(normal, f.u), glm::dot(normal, f.v), glm::dot(normal, f.w)}};
@@ -45,7 +47,8 @@ double rim_part(const Vec3& x, const Vec3& n, double rho, double from, double to
   const double lower = e - k * std::cos(psi0), rise = std::cos(psi0) - std::cos(psi1);
   const double logarithm = on_axis ? rise / lower : std::log1p(k * rise / lower) / k;
   const double span = psi1 - psi0;
-  const double integral = a * (span + 2.0 * bends) / s + b * (q * span + 2.0 * e * bends_by_k) / s + d * logarithm;
+  const double integral =
+      a * (span + 2.0 * bends) / s + b * (q * span + 2.0 * e * bends_by_k) / s + d * logarithm;
   return -0.5 * rho * integral;
 }
 
@@ -77,7 +80,6 @@ double horizon_in_frame(const Vec3& x, const Vec3& n, double rho) {
   return half_plane_area(chord_of_plane(n, x, rho).delta);
 }
 
-
 }  // namespace
 
 double disk_irradiance_factor(const DiskLight& light, const Vec3& x, const Vec3& n) {
@@ -90,7 +92,8 @@ double fraction_above_horizon(const DiskLight& light, const Vec3& x, const Vec3&
   return horizon_in_frame(p.x, p.n, light.radius);
 }
 
-Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility, int threads) {
+Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility,
+            int threads) {
   Image image;
   image.width = surface.width;
   image.height = surface.height;
@@ -109,7 +112,8 @@ Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const fl
     const InLightFrame p = to_light_frame(scene.light, frame, surface.position[i], surface.normal[i]);
     const double above = horizon_in_frame(p.x, p.n, scene.light.radius);
     const double share = above > 0.0 ? std::min(1.0, static_cast<double>(visibility[i]) / above) : 0.0;
-    const Vec3 color = what.albedo / kPi * scene.radiance * (factor_in_frame(p.x, p.n, scene.light.radius) * share);
+    const Vec3 color =
+        what.albedo / kPi * scene.radiance * (factor_in_frame(p.x, p.n, scene.light.radius) * share);
     for (int k = 0; k < 3; ++k) {
       rgb[k][i] = static_cast<float>(color[k]);
       position[k][i] = static_cast<float>(surface.position[i][k]);

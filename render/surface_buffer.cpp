@@ -13,8 +13,8 @@ namespace {
 constexpr int kLanes = 16;
 
 /// The faces seen through up to 16 neighbouring pixels of a row.
-void trace_row_part(const RayScene& rays, const PixelRays& pixels, int x0, int y, int count, RTCRayHit16& packet,
-                    int* valid) {
+void trace_row_part(const RayScene& rays, const PixelRays& pixels, int x0, int y, int count,
+                    RTCRayHit16& packet, int* valid) {
   const RayFrame& frame = rays.frame();
   const Vec3 origin = frame.to_local(pixels.origin);
   for (int i = 0; i < kLanes; ++i) {
@@ -41,8 +41,8 @@ void trace_row_part(const RayScene& rays, const PixelRays& pixels, int x0, int y
 }
 
 /// Point and normal of pixel (x, y), in double, from the pixel's ray and the face's plane.
-void place(const Scene& scene, const PixelRays& pixels, int x, int y, std::size_t pixel, float embree_distance,
-           double scale, SurfaceBuffer& out) {
+void place(const Scene& scene, const PixelRays& pixels, int x, int y, std::size_t pixel,
+           float embree_distance, double scale, SurfaceBuffer& out) {
   const TriangleMesh& mesh = scene.objects[static_cast<std::size_t>(out.object[pixel])].mesh;
   const IndexedTriangle& t = mesh.triangles()[out.face[pixel]];
   const auto points = mesh.positions();
@@ -80,7 +80,8 @@ SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int 
         trace_row_part(rays, pixels, x0, y, count, packet, valid);
         for (int i = 0; i < count; ++i) {
           if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-          const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x0 + i);
+          const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                    static_cast<std::size_t>(x0 + i);
           out.object[pixel] = static_cast<std::int32_t>(packet.hit.geomID[i]);
           out.face[pixel] = packet.hit.primID[i];
           place(scene, pixels, x0 + i, y, pixel, packet.ray.tfar[i], rays.frame().scale, out);

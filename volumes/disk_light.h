@@ -29,8 +29,8 @@ struct ExtremePoints {
 };
 ExtremePoints extreme_points(const DiskLight& light, const Vec3& plane_normal);
 
-/// True where nothing of the light's front is seen: on or behind its plane, in plain double (images; topology asks
-/// side_of_light_plane in predicates.h).
+/// True where nothing of the light's front is seen: on or behind its plane, in plain double (images; topology
+/// asks side_of_light_plane in predicates.h).
 bool is_behind(const DiskLight& light, const Vec3& point);
 
 }  // namespace penumbra

@@ -21,13 +21,14 @@ namespace penumbra {
 struct ExtrudeOptions {
   Vec3 bound_center{0.0};     ///< sphere that the far end of every volume must lie beyond
   double bound_radius = 0.0;  ///< scene units; 0: ten times the sphere around caster and light
-  int cone_segments = 16;  ///< corners of the polygon circumscribed to the disk, ≥ 3 (sheets: per full turn)
-  bool split_convex =
-      true;  ///< one cell per convex component where there are such; else one per triangle everywhere
-  bool assume_solid =
-      true;  ///< closed outward components in front of the light have no pockets that are inside out (no
-             ///< point of negative winding number, as any mesh that does not cross itself): faces that look
-             ///< away from the whole light then need no cells. false: every face gets one
+  /// Corners of the polygon circumscribed to the disk, at least 3 (sheets: per full turn of a cone).
+  int cone_segments = 16;
+  /// One cell per convex component where there are such; false: one per triangle everywhere.
+  bool split_convex = true;
+  /// Closed outward components in front of the light have no point of negative winding number (as any that
+  /// does not cross itself): faces that look away from the whole light then need no cells. false: every face
+  /// gets one.
+  bool assume_solid = true;
   std::uint32_t object = 0;  ///< written to tags
   Progress progress;
 };

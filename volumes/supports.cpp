@@ -54,8 +54,13 @@ struct FacetEnd {
 
 class Finder {
  public:
-  Finder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light, const Classification& classes)
-      : mesh_(mesh), rings_(rings), classes_(classes), frame_(light_frame(light)), center_(light.center),
+  Finder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+         const Classification& classes)
+      : mesh_(mesh),
+        rings_(rings),
+        classes_(classes),
+        frame_(light_frame(light)),
+        center_(light.center),
         r_(light.radius) {}
 
   Supports run(const Silhouettes& silhouettes) {
@@ -122,14 +127,16 @@ class Finder {
     }
   }
 
-  /// Facets that arrive at the vertex go on with facets that leave it, the smallest turns first. Beyond kSharpestTurn two
-  /// ends belong to different parts of the contour (the far sides of a saddle), not to one corner.
+  /// Facets that arrive at the vertex go on with facets that leave it, the smallest turns first. Beyond
+  /// kSharpestTurn two ends belong to different parts of the contour (the far sides of a saddle), not to one
+  /// corner.
   void link_ends(std::span<const FacetEnd> ends) {
     links_.clear();
     for (const FacetEnd& arriving : ends)
       for (const FacetEnd& leaving : ends) {
         if (arriving.leaves || !leaving.leaves) continue;
-        if (out_.facets[arriving.facet].edge == out_.facets[leaving.facet].edge) continue;  // both sides of a knife edge
+        if (out_.facets[arriving.facet].edge == out_.facets[leaving.facet].edge)
+          continue;  // both sides of a knife edge
         const double turn = std::abs(std::remainder(leaving.angle - arriving.angle, 2.0 * kPi));
         if (turn < kSharpestTurn) links_.push_back({turn, arriving.facet, leaving.facet});
       }
@@ -214,7 +221,8 @@ class Finder {
     double covered = -kPi;  // the disk's side is (-π, 0)
     for (const auto& [low, high] : wedges_)
       if (low <= covered + 1e-9) covered = std::max(covered, high);
-    const bool covers_all = covered >= kPi - 1e-9;  // an inner vertex of the star's picture: no boundary at all
+    const bool covers_all =
+        covered >= kPi - 1e-9;  // an inner vertex of the star's picture: no boundary at all
     return covered >= -1e-9 && !covers_all;
   }
 

@@ -43,9 +43,9 @@ struct ConeSector {
   std::uint32_t from_facet, to_facet;
 };
 
-/// A mixed face turned away from the disk's center, between the umbra silhouette and the center's own: seen from the
-/// center, no umbra facet covers it. The 2004 paper (section 3.3) calls these silhouette faces and draws them as part of the
-/// umbra volume.
+/// A mixed face turned away from the disk's center, between the umbra silhouette and the center's own: seen
+/// from the center, no umbra facet covers it. The 2004 paper (section 3.3) calls these silhouette faces and
+/// draws them as part of the umbra volume.
 struct GapFace {
   FaceId face;
   std::uint32_t facet;  ///< the umbra facet nearest to it, in steps from face to face

@@ -11,14 +11,18 @@ Backend backend_of(const std::string& name) {
   throw UsageError("unknown backend '" + name + "': use osmesa or egl");
 }
 
-const char* name_of(Backend backend) { return backend == Backend::kOsMesa ? "osmesa" : "egl"; }
+const char* name_of(Backend backend) {
+  return backend == Backend::kOsMesa ? "osmesa" : "egl";
+}
 
 std::unique_ptr<Context> make_context(Backend backend) {
   return backend == Backend::kOsMesa ? make_osmesa_context() : make_egl_context();
 }
 
 std::string renderer_string(const Functions& gl) {
-  const auto text = [&](GLenum what) { return std::string(reinterpret_cast<const char*>(gl.GetString(what))); };
+  const auto text = [&](GLenum what) {
+    return std::string(reinterpret_cast<const char*>(gl.GetString(what)));
+  };
   return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 

@@ -24,7 +24,8 @@ struct Library {
 template <class Function>
 void load(void* handle, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(handle, name));
-  if (!function) throw SystemError(std::string("libEGL lacks ") + name + ": install the Debian package libegl1");
+  if (!function)
+    throw SystemError(std::string("libEGL lacks ") + name + ": install the Debian package libegl1");
 }
 
 const Library& library() {
@@ -32,7 +33,9 @@ const Library& library() {
     Library lib;
     lib.handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!lib.handle)
-      throw SystemError("cannot open libEGL.so.1: install the Debian packages libegl1 and libegl-mesa0, or use --backend osmesa");
+      throw SystemError(
+          "cannot open libEGL.so.1: install the Debian packages libegl1 and libegl-mesa0, or use --backend "
+          "osmesa");
     load(lib.handle, "eglGetProcAddress", lib.proc_address);
     load(lib.handle, "eglInitialize", lib.initialize);
     load(lib.handle, "eglBindAPI", lib.bind_api);
@@ -46,8 +49,9 @@ const Library& library() {
 }
 
 [[noreturn]] void fail(const char* what) {
-  throw SystemError(std::string("EGL surfaceless: ") + what +
-                    ": install the Debian packages libegl-mesa0 and libgl1-mesa-dri, or use --backend osmesa");
+  throw SystemError(
+      std::string("EGL surfaceless: ") + what +
+      ": install the Debian packages libegl-mesa0 and libgl1-mesa-dri, or use --backend osmesa");
 }
 
 class Egl final : public Context {
@@ -59,16 +63,24 @@ class Egl final : public Context {
     display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display_ == EGL_NO_DISPLAY || !library().initialize(display_, nullptr, nullptr)) fail("no display");
     if (!library().bind_api(EGL_OPENGL_API)) fail("no OpenGL");
-    const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    const EGLint config_wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
+                                    EGL_NONE};
     EGLConfig config = nullptr;
     EGLint found = 0;
-    if (!library().choose_config(display_, config_wanted, &config, 1, &found) || found < 1) fail("no configuration");
-    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    if (!library().choose_config(display_, config_wanted, &config, 1, &found) || found < 1)
+      fail("no configuration");
+    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                             4,
+                             EGL_CONTEXT_MINOR_VERSION,
+                             5,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                             EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                             EGL_NONE};
     context_ = library().create_context(display_, config, EGL_NO_CONTEXT, wanted);
     if (context_ == EGL_NO_CONTEXT) fail("no OpenGL 4.5 core context");
     make_current();
-    functions_ = load_functions([](const char* name) { return reinterpret_cast<void*>(library().proc_address(name)); });
+    functions_ = load_functions(
+        [](const char* name) { return reinterpret_cast<void*>(library().proc_address(name)); });
     renderer_ = renderer_string(functions_);
   }
   ~Egl() override {
@@ -76,7 +88,8 @@ class Egl final : public Context {
     library().destroy_context(display_, context_);
   }
   void make_current() override {
-    if (!library().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) fail("cannot make the context current");
+    if (!library().make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
+      fail("cannot make the context current");
   }
   const Functions& functions() const override { return functions_; }
   std::string renderer() const override { return renderer_; }
@@ -90,6 +103,8 @@ class Egl final : public Context {
 
 }  // namespace
 
-std::unique_ptr<Context> make_egl_context() { return std::make_unique<Egl>(); }
+std::unique_ptr<Context> make_egl_context() {
+  return std::make_unique<Egl>();
+}
 
 }  // namespace penumbra::gl

@@ -1,5 +1,5 @@
-// OSMesa: Mesa's off-screen software renderer. libOSMesa is opened at run time with RTLD_LOCAL, so that its copy of the
-// GL entry points never meets another's.
+// OSMesa: Mesa's off-screen software renderer. libOSMesa is opened at run time with RTLD_LOCAL, so that its
+// copy of the GL entry points never meets another's.
 #include <GL/glcorearb.h>
 #include <dlfcn.h>
 
@@ -28,7 +28,8 @@ struct Library {
 template <class Function>
 void load(void* handle, const char* name, Function& function) {
   function = reinterpret_cast<Function>(dlsym(handle, name));
-  if (!function) throw SystemError(std::string("libOSMesa lacks ") + name + ": install the Debian package libosmesa6");
+  if (!function)
+    throw SystemError(std::string("libOSMesa lacks ") + name + ": install the Debian package libosmesa6");
 }
 
 /// Opened once and never closed: unloading Mesa while its threads wind down is not safe.
@@ -38,7 +39,8 @@ const Library& library() {
     for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
       if ((lib.handle = dlopen(name, RTLD_NOW | RTLD_LOCAL))) break;
     if (!lib.handle)
-      throw SystemError("cannot open libOSMesa.so.8: install the Debian package libosmesa6, or use --backend egl");
+      throw SystemError(
+          "cannot open libOSMesa.so.8: install the Debian package libosmesa6, or use --backend egl");
     load(lib.handle, "OSMesaCreateContextAttribs", lib.create);
     load(lib.handle, "OSMesaDestroyContext", lib.destroy);
     load(lib.handle, "OSMesaMakeCurrent", lib.make_current);
@@ -51,10 +53,13 @@ const Library& library() {
 class OsMesa final : public Context {
  public:
   OsMesa() {
-    const std::array<int, 13> wanted{kFormat, kRgba, kDepthBits, 24, kStencilBits, 8, kProfile,
-                                     kCoreProfile, kMajorVersion, 4, kMinorVersion, 5, 0};
+    const std::array<int, 13> wanted{kFormat,  kRgba,        kDepthBits,    24, kStencilBits,  8,
+                                     kProfile, kCoreProfile, kMajorVersion, 4,  kMinorVersion, 5,
+                                     0};
     context_ = library().create(wanted.data(), nullptr);
-    if (!context_) throw SystemError("OSMesa gives no OpenGL 4.5 core context: install Mesa 22 or newer, or use --backend egl");
+    if (!context_)
+      throw SystemError(
+          "OSMesa gives no OpenGL 4.5 core context: install Mesa 22 or newer, or use --backend egl");
     make_current();
     functions_ = load_functions(library().proc_address);
     renderer_ = renderer_string(functions_);
@@ -76,6 +81,8 @@ class OsMesa final : public Context {
 
 }  // namespace
 
-std::unique_ptr<Context> make_osmesa_context() { return std::make_unique<OsMesa>(); }
+std::unique_ptr<Context> make_osmesa_context() {
+  return std::make_unique<OsMesa>();
+}
 
 }  // namespace penumbra::gl

@@ -8,8 +8,8 @@ namespace penumbra::gl {
 
 Functions load_functions(ProcLoader loader) {
   Functions gl;
-#define PENUMBRA_GL_LOAD(name, type)                                                                       \
-  gl.name = reinterpret_cast<type>(loader("gl" #name));                                                    \
+#define PENUMBRA_GL_LOAD(name, type)                    \
+  gl.name = reinterpret_cast<type>(loader("gl" #name)); \
   if (!gl.name) throw SystemError("OpenGL function gl" #name " is missing: OpenGL 4.5 core is required");
   PENUMBRA_GL_FUNCTIONS(PENUMBRA_GL_LOAD)
 #undef PENUMBRA_GL_LOAD

@@ -21,7 +21,8 @@ std::string expand_includes(std::string text) {
 }
 
 GLuint compile(const Functions& gl, const Program::Stage& stage) {
-  const std::string text = expand_includes(std::string(stage.text.empty() ? shader_source(stage.file) : stage.text));
+  const std::string text =
+      expand_includes(std::string(stage.text.empty() ? shader_source(stage.file) : stage.text));
   const char* pointer = text.c_str();
   const GLuint shader = gl.CreateShader(stage.type);
   gl.ShaderSource(shader, 1, &pointer, nullptr);
@@ -37,7 +38,8 @@ GLuint compile(const Functions& gl, const Program::Stage& stage) {
 
 }  // namespace
 
-Program::Program(const Functions& gl, std::initializer_list<Stage> stages) : gl_(gl), id_(gl.CreateProgram()) {
+Program::Program(const Functions& gl, std::initializer_list<Stage> stages)
+    : gl_(gl), id_(gl.CreateProgram()) {
   std::string names;
   for (const Stage& stage : stages) {
     const GLuint shader = compile(gl, stage);
@@ -54,23 +56,41 @@ Program::Program(const Functions& gl, std::initializer_list<Stage> stages) : gl_
   throw SystemError("shaders " + names + "do not link: " + log.data());
 }
 
-Program::~Program() { gl_.DeleteProgram(id_); }
+Program::~Program() {
+  gl_.DeleteProgram(id_);
+}
 
 Object::Object(const Functions& gl, Kind kind) : gl_(gl), kind_(kind) {
   switch (kind) {
-    case Kind::kBuffer: gl.GenBuffers(1, &id_); break;
-    case Kind::kTexture: gl.GenTextures(1, &id_); break;
-    case Kind::kFramebuffer: gl.GenFramebuffers(1, &id_); break;
-    case Kind::kVertexArray: gl.GenVertexArrays(1, &id_); break;
+    case Kind::kBuffer:
+      gl.GenBuffers(1, &id_);
+      break;
+    case Kind::kTexture:
+      gl.GenTextures(1, &id_);
+      break;
+    case Kind::kFramebuffer:
+      gl.GenFramebuffers(1, &id_);
+      break;
+    case Kind::kVertexArray:
+      gl.GenVertexArrays(1, &id_);
+      break;
   }
 }
 
 Object::~Object() {
   switch (kind_) {
-    case Kind::kBuffer: gl_.DeleteBuffers(1, &id_); break;
-    case Kind::kTexture: gl_.DeleteTextures(1, &id_); break;
-    case Kind::kFramebuffer: gl_.DeleteFramebuffers(1, &id_); break;
-    case Kind::kVertexArray: gl_.DeleteVertexArrays(1, &id_); break;
+    case Kind::kBuffer:
+      gl_.DeleteBuffers(1, &id_);
+      break;
+    case Kind::kTexture:
+      gl_.DeleteTextures(1, &id_);
+      break;
+    case Kind::kFramebuffer:
+      gl_.DeleteFramebuffers(1, &id_);
+      break;
+    case Kind::kVertexArray:
+      gl_.DeleteVertexArrays(1, &id_);
+      break;
   }
 }
 

@@ -1,4 +1,5 @@
-// Small owners of GL objects: programs from embedded shaders, buffers, textures. All need their context to be current.
+// Small owners of GL objects: programs from embedded shaders, buffers, textures. All need their context to be
+// current.
 #pragma once
 
 #include <initializer_list>

@@ -5,7 +5,8 @@
 
 namespace penumbra::gl {
 
-/// Text of render/shaders/NAME. Asking for a file that does not exist is a programmer's mistake (std::logic_error).
+/// Text of render/shaders/NAME. Asking for a file that does not exist is a programmer's mistake
+/// (std::logic_error).
 std::string_view shader_source(std::string_view name);
 
 }  // namespace penumbra::gl

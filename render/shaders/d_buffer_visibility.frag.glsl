@@ -143,15 +143,19 @@ Share share_of_distances(float entry, float edge, Receiver r, bool umbra) {
   return Share(curve_of(umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), kWholeDisk);
 }
 
-bool occluded(Receiver r, Texel t) {
-  float slope = dot(r.n, r.x);
-  if (slope >= 0.0) return false;  // the light's center is below the horizon: its texel says nothing about the rest
-  uint face = texelFetch(occluder_face, t.at, 0).r;
-  if (face == kEmpty || face == r.face) return false;
-  float weight = weight_of(occluder_depth, t);
+// Whether a surface that the light's center sees at the texel lies above the receiver's face, as far as texels can tell.
+bool is_above(sampler2DArray depth, Receiver r, Texel t) {
+  float weight = weight_of(depth, t);
+  if (weight <= r.weight) return false;
   vec3 o = t.direction / (weight * t.direction.z);
   // Bias: within a texel a surface may rise by about a texel's width above the plane of the receiver's face.
-  return weight > r.weight && dot(r.n, o - r.x) > kBias * t.size / weight;
+  return dot(r.n, o - r.x) > kBias * t.size / weight;
+}
+
+bool occluded(Receiver r, Texel t) {
+  if (dot(r.n, r.x) >= 0.0) return false;  // the light's center is below the horizon: its texel says nothing about the rest
+  uint face = texelFetch(occluder_face, t.at, 0).r;
+  return face != kEmpty && face != r.face && is_above(occluder_depth, r, t);
 }
 
 // What the layer's entry leaves of the light, where the receiver is behind it.
@@ -195,7 +199,7 @@ float visibility_of(Receiver r) {
       return two ? both_hide(one, share_of(penumbra_second, penumbra_second_depth, r, t, horizon, false)) : one.visibility;
     if (horizon.delta > 0.0) return open;
   }
-  bool behind_last = r.weight < weight_of(last_depth, t) * (1.0 - 1e-3);
+  bool behind_last = is_above(last_depth, r, t);
   Share one = behind_last ? share_of(below_entry, below_depth, r, t, horizon, true)
                           : share_of(above_entry, above_depth, r, t, horizon, true);
   if (one.visibility < 0.0) return hidden ? 0.0 : open;

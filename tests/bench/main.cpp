@@ -1,4 +1,5 @@
-// What accuracy costs in time: `./run bench`. Medians of interleaved frames, everything finished, one process.
+// What accuracy costs in time: `./run bench`. Medians of interleaved frames, everything finished, one
+// process.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -13,9 +14,10 @@ namespace {
 
 constexpr int kFrames = 7;
 
-/// Rays per pixel at which stratified sampling has the given error, by log-log interpolation between measured counts.
-int rays_of_equal_error(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, const Truth& truth,
-                        double rmse) {
+/// Rays per pixel at which stratified sampling has the given error, by log-log interpolation between measured
+/// counts.
+int rays_of_equal_error(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+                        const Truth& truth, double rmse) {
   double last_n = 0.0, last_error = 0.0;
   for (int n : {1, 4, 16, 64, 256, 1024}) {
     ReferenceOptions options;
@@ -75,12 +77,14 @@ void time_scene(const std::string& name) {
   for (const std::string& s : order) std::printf(" %s %.1f", s.c_str(), median(stages[s]));
   const double ours = median(totals), theirs = median(ray_times);
   std::printf("\n  dbuffer    %8.1f ms a frame, RMSE %.4f over true penumbra\n", ours, rmse);
-  std::printf("  reference  %8.1f ms with %d rays a pixel at the same RMSE (%.0f Mrays/s; %.0f one by one)\n", theirs,
-              equal.samples, static_cast<double>(traced) / (1e3 * theirs),
+  std::printf("  reference  %8.1f ms with %d rays a pixel at the same RMSE (%.0f Mrays/s; %.0f one by one)\n",
+              theirs, equal.samples, static_cast<double>(traced) / (1e3 * theirs),
               static_cast<double>(traced) / (1e3 * median(single_times)));
-  std::printf("  the D-buffer %s: %.2f times the rays' time\n", ours < theirs ? "wins" : "loses", ours / theirs);
-  std::printf("  Embree's hierarchy (not in the above) %.1f ms; peak memory of the process so far %.0f MiB\n\n",
-              rays.build_ms(), peak_memory_mib());
+  std::printf("  the D-buffer %s: %.2f times the rays' time\n", ours < theirs ? "wins" : "loses",
+              ours / theirs);
+  std::printf(
+      "  Embree's hierarchy (not in the above) %.1f ms; peak memory of the process so far %.0f MiB\n\n",
+      rays.build_ms(), peak_memory_mib());
   std::fflush(stdout);
 }
 
@@ -111,7 +115,8 @@ void time_sizes(const std::string& name) {
 }  // namespace penumbra::bench
 
 int main() {
-  for (const char* name : {"cube-medium", "knot1-medium", "armadillo-medium"}) penumbra::bench::time_scene(name);
+  for (const char* name : {"cube-medium", "knot1-medium", "armadillo-medium"})
+    penumbra::bench::time_scene(name);
   penumbra::bench::time_sizes("armadillo-medium");
   return 0;
 }

@@ -27,7 +27,8 @@ gl::Context& context() {
 }
 
 DBufferFrame draw(const Scene& scene, const SurfaceBuffer& surface, int size = 1024) {
-  DBuffer buffer(context(), scene);
+  const RayScene rays(scene, 0);
+  DBuffer buffer(context(), scene, rays);
   buffer.set_surface(surface);
   return buffer.render(scene.light, {.size = size});
 }
@@ -42,7 +43,8 @@ DBufferFrame draw(const Scene& scene, const SurfaceBuffer& surface, int size = 1
 /// RMSE over the true penumbra of `pixels`, by two references of 256 samples.
 ErrorFigures error_over_penumbra(const View& view, const Values& visibility, const Pixels& pixels) {
   const Pixels near = view.near_penumbra(pixels);
-  return testing::penumbra_error(at_pixels(visibility, near), view.trace(near, 256, 21), view.trace(near, 256, 22));
+  return testing::penumbra_error(at_pixels(visibility, near), view.trace(near, 256, 21),
+                                 view.trace(near, 256, 22));
 }
 
 struct Threshold {
@@ -52,7 +54,8 @@ struct Threshold {
 
 class DBufferScenes : public ::testing::TestWithParam<Threshold> {};
 
-// The engine's stated accuracy for floor pixels. It holds for 640×480; half that size samples the same penumbra.
+// The engine's stated accuracy for floor pixels. It holds for 640×480; half that size samples the same
+// penumbra.
 INSTANTIATE_TEST_SUITE_P(Data, DBufferScenes,
                          ::testing::Values(Threshold{"cube-small", .032}, Threshold{"cube-medium", .055},
                                            Threshold{"sphere-small", .02}, Threshold{"sphere-medium", .03},
@@ -70,7 +73,8 @@ TEST_P(DBufferScenes, ErrorOnTheFloor) {
   const Values v = draw(scene, view.surface).visibility;
   EXPECT_TRUE(all_in_range(v));
   const ErrorFigures floor = error_over_penumbra(view, v, testing::pixels_of(view.surface, 0));
-  std::printf("%-14s floor: %zu pixels, RMSE %.4f (at most %.3f)\n", GetParam().scene, floor.pixels, floor.rmse, GetParam().rmse);
+  std::printf("%-14s floor: %zu pixels, RMSE %.4f (at most %.3f)\n", GetParam().scene, floor.pixels,
+              floor.rmse, GetParam().rmse);
   EXPECT_GT(floor.pixels, 400u);
   EXPECT_LE(floor.rmse, GetParam().rmse);
 }
@@ -81,8 +85,8 @@ TEST(DBuffer, CastersOwnSurfaceIsClean) {
     const View view(scene, 320, 240);
     const Values v = draw(scene, view.surface).visibility;
     const Pixels own = testing::pixels_of(view.surface, 1);
-    const ErrorFigures figures = error_figures(at_pixels(v, own), view.trace(own, 256, 21), view.trace(own, 256, 22),
-                                               [&] { Pixels all(own.size()); std::iota(all.begin(), all.end(), 0u); return all; }());
+    const ErrorFigures figures = error_figures(at_pixels(v, own), view.trace(own, 256, 21),
+                                               view.trace(own, 256, 22), testing::first_pixels(own.size()));
     std::printf("%-14s caster: %zu pixels, RMSE %.4f\n", name, figures.pixels, figures.rmse);
     EXPECT_GT(figures.pixels, 1'000u) << name;
     EXPECT_LE(figures.rmse, 0.01) << name;
@@ -99,7 +103,8 @@ TEST(DBuffer, FarFromCastersIsTheHorizonsFraction) {
       const Vec3& p = view.surface.position[i];
       if (view.surface.object[i] != 0 || p.y < 0.0 || std::hypot(p.x, p.z) < 9.0) continue;
       ++far;
-      ASSERT_NEAR(v[i], fraction_above_horizon(scene.light, p, view.surface.normal[i]), 1e-5) << name << ", pixel " << i;
+      ASSERT_NEAR(v[i], fraction_above_horizon(scene.light, p, view.surface.normal[i]), 1e-5)
+          << name << ", pixel " << i;
     }
     EXPECT_GT(far, 500) << name;
   }
@@ -149,17 +154,22 @@ TEST(DBuffer, CasterBehindTheLightCastsNothing) {
 }
 
 TEST(DBuffer, SurvivesLightsInsideOrTouchingCasters) {
-  const Vec3 centers[] = {{0, 0, 0},       {0, 1, 0},  {1, 1, 1},         {1, 1, 0},   {0, 0.999999, 0},
+  const Vec3 centers[] = {{0, 0, 0},        {0, 1, 0}, {1, 1, 1},          {1, 1, 0},   {0, 0.999999, 0},
                           {0, 1.000001, 0}, {0, 2, 0}, {0.5, 1 + 1e-9, 0}, {1.5, 0, 0}, {0, -1, 0}};
   for (const Vec3& center : centers) {
+    Scene scene;
+    scene.light = {center, {0, -1, 0}, 5.0};
+    scene.objects.push_back({"floor", make_plane(6.0), Vec3(0.8), false});
+    scene.objects.push_back({"box", make_box(Vec3(0.0), Vec3(1.0)), Vec3(0.8), true});
+    const RayScene rays(scene, 0);
+    DBuffer buffer(context(), scene, rays);
     for (const Vec3& normal : {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1, 1, 1)}) {
+      scene.light.normal = normal;
+      buffer.set_surface(scattered_receivers(6, scene.light, 1'024));
       for (const double radius : {1e-6, 0.3, 5.0}) {
-        Scene scene;
-        scene.light = {center, normal, radius};
-        scene.objects.push_back({"floor", make_plane(6.0), Vec3(0.8), false});
-        scene.objects.push_back({"box", make_box(Vec3(0.0), Vec3(1.0)), Vec3(0.8), true});
-        const Values v = draw(scene, scattered_receivers(6, scene.light, 1'024), 64).visibility;
-        ASSERT_TRUE(all_in_range(v)) << "light at " << center.x << " " << center.y << " " << center.z << ", radius " << radius;
+        scene.light.radius = radius;
+        ASSERT_TRUE(all_in_range(buffer.render(scene.light, {.size = 64}).visibility))
+            << "light at " << center.x << " " << center.y << " " << center.z << ", radius " << radius;
       }
     }
   }
@@ -176,11 +186,12 @@ TEST(DBuffer, CasterAcrossTheLightsPlane) {
   const DBufferFrame frame = draw(scene, view.surface, 512);
   EXPECT_TRUE(all_in_range(frame.visibility));
   const Pixels floor = testing::pixels_of(view.surface, 0);
-  const Values r1 = view.trace(floor, 64, 21), r2 = view.trace(floor, 64, 22), v = at_pixels(frame.visibility, floor);
+  const Values r1 = view.trace(floor, 64, 21), r2 = view.trace(floor, 64, 22),
+               v = at_pixels(frame.visibility, floor);
   const ErrorFigures figures = testing::penumbra_error(v, r1, r2);
   std::printf("across the light's plane: %zu pixels, RMSE %.4f\n", figures.pixels, figures.rmse);
   EXPECT_GT(figures.pixels, 200u);
-  EXPECT_LE(figures.rmse, 0.1);
+  EXPECT_LE(figures.rmse, 0.01) << "corners, and texels of a coarse hemicube";
   std::size_t umbra = 0, dark = 0;
   for (std::size_t i = 0; i < floor.size(); ++i) {
     if (r1[i] + r2[i] > 0.0f) continue;
@@ -213,15 +224,16 @@ TEST(DBuffer, WideScenesUseAHemicubeThatAgreesWithOnePerspective) {
     const DBufferFrame frame = draw(scene, view.surface, 1024);
     EXPECT_EQ(frame.counts["targets"], wide ? 5 : 1);
     EXPECT_TRUE(all_in_range(frame.visibility));
-    const ErrorFigures figures = error_over_penumbra(view, frame.visibility, testing::pixels_of(view.surface, 0));
-    std::printf("%s: %zu pixels, RMSE %.4f\n", wide ? "hemicube" : "one target", figures.pixels, figures.rmse);
-    EXPECT_GT(figures.pixels, 500u);
+    const ErrorFigures figures =
+        error_over_penumbra(view, frame.visibility, testing::pixels_of(view.surface, 0));
+    std::printf("%s: %zu pixels, RMSE %.4f\n", wide ? "hemicube" : "one target", figures.pixels,
+                figures.rmse);
+    EXPECT_GT(figures.pixels, 300u);
     rmse[wide] = figures.rmse;
   }
-  // What a box costs at its corners (see cube-medium), and the same either way.
-  EXPECT_LE(rmse[0], 0.055);
-  EXPECT_LE(rmse[1], 0.055);
-  EXPECT_NEAR(rmse[0], rmse[1], 0.01);
+  // A box is exact but for corners whose texels are taken by the wrong edge.
+  EXPECT_LE(rmse[0], 0.01);
+  EXPECT_LE(rmse[1], 0.01);
 }
 
 TEST(DBuffer, OneEdgeIsTheChordFormula) {
@@ -247,8 +259,8 @@ TEST(DBuffer, OneEdgeIsTheChordFormula) {
   EXPECT_LE(rms, 0.002);
 }
 
-/// Texel of a D-buffer with one perspective, in (x/z, y/z): it spans the casters and their penumbrae down to the
-/// farthest receiver, with four texels to spare.
+/// Texel of a D-buffer with one perspective, in (x/z, y/z): it spans the casters and their penumbrae down to
+/// the farthest receiver, with four texels to spare.
 double texel_size(const Scene& scene, const LightFrame& axes, int size) {
   const auto local = [&](const Vec3& p) {
     const Vec3 d = p - scene.light.center;
@@ -271,11 +283,12 @@ double texel_size(const Scene& scene, const LightFrame& axes, int size) {
 }
 
 struct BandEdge {
-  Vec3 a, b;            ///< light's frame
-  Vec3 apex1, apex2;    ///< of the faces beside it; equal at a boundary
+  Vec3 a, b;          ///< light's frame
+  Vec3 apex1, apex2;  ///< of the faces beside it; equal at a boundary
 };
 
-/// The receiver's exact visibility where exactly one band edge divides its disk; `texels`: how wide the penumbra is.
+/// The receiver's exact visibility where exactly one band edge divides its disk; `texels`: how wide the
+/// penumbra is.
 struct OneEdge {
   bool divides = false;
   double visibility = 0.0, texels = 0.0;
@@ -283,7 +296,8 @@ struct OneEdge {
 
 class OneEdgeOracle {
  public:
-  OneEdgeOracle(const Scene& scene, int size) : scene_(scene), axes_(light_frame(scene.light)), texel_(texel_size(scene, axes_, size)) {
+  OneEdgeOracle(const Scene& scene, int size)
+      : scene_(scene), axes_(light_frame(scene.light)), texel_(texel_size(scene, axes_, size)) {
     for (const SceneObject& object : scene.objects) {
       if (!object.casts) continue;
       const TriangleMesh& mesh = object.mesh;
@@ -334,16 +348,16 @@ class OneEdgeOracle {
       const glm::dvec2 p = r * distance * chord.normal;
       return !testing::is_blocked(scene_, world, scene_.light.center + p.x * axes_.u + p.y * axes_.v).hidden;
     };
-    const double positive = open(0.5 * (1.0 - chord.delta)) ? 1.0 : 0.0;   // half-way between chord and rim
+    const double positive = open(0.5 * (1.0 - chord.delta)) ? 1.0 : 0.0;  // half-way between chord and rim
     const double negative = open(0.5 * (-1.0 - chord.delta)) ? 1.0 : 0.0;
     const double share = half_plane_area(chord.delta);
     // The penumbra's width in (x/z, y/z) is 2r (1/z of the edge - 1/z of the receiver).
     const glm::dvec2 p = on_disk(e.a, x), q = on_disk(e.b, x), middle = -r * chord.delta * chord.normal;
     const double t = std::clamp(glm::dot(middle - p, q - p) / glm::dot(q - p, q - p), 0.0, 1.0);
-    const double wa = t * (x.z - e.b.z), wb = (1.0 - t) * (x.z - e.a.z);  // perspective: weights swap with distances
-    const double z = wa + wb > 0.0 ? ((1.0 - t) * e.a.z * (x.z - e.b.z) + t * e.b.z * (x.z - e.a.z)) /
-                                         ((1.0 - t) * (x.z - e.b.z) + t * (x.z - e.a.z))
-                                   : e.a.z;
+    // Perspective: a point of the edge weighs its ends by the *other* parameter's distance from the
+    // receiver's plane.
+    const double wa = (1.0 - t) * (x.z - e.a.z), wb = t * (x.z - e.b.z);
+    const double z = (wa * e.a.z + wb * e.b.z) / (wa + wb);
     return {true, positive * share + negative * (1.0 - share), 2.0 * r * (1.0 / z - 1.0 / x.z) / texel_};
   }
 
@@ -374,7 +388,8 @@ TEST(DBuffer, ReceiversThatOneEdgeDividesAreExact) {
       worst = std::max(worst, std::abs(one.visibility - frame.visibility[i]));
     }
     const double rms = values.empty() ? 0.0 : testing::rms_difference(values, exact);
-    std::printf("%-16s %zu receivers (%d partly lit), RMSE %.2g, worst %.2g\n", name, values.size(), partly, rms, worst);
+    std::printf("%-16s %zu receivers (%d partly lit), RMSE %.2g, worst %.2g\n", name, values.size(), partly,
+                rms, worst);
     EXPECT_LE(rms, 0.001) << name;
     if (std::string(name).find("medium") != std::string::npos && std::string(name) != "torus-medium") {
       EXPECT_GT(partly, 200) << name;
@@ -397,7 +412,7 @@ TEST(DBuffer, OfRadiusZeroIsTheHardShadow) {
 TEST(DBuffer, FramesDoNotDependOnTheFrameBefore) {
   const Scene scene = testing::data_scene("torus-medium");
   const View view(scene, 160, 120);
-  DBuffer buffer(context(), scene);
+  DBuffer buffer(context(), scene, view.rays);
   buffer.set_surface(view.surface);
   const Values first = buffer.render(scene.light, {.size = 256}).visibility;
   DiskLight other = scene.light;
@@ -409,9 +424,11 @@ TEST(DBuffer, FramesDoNotDependOnTheFrameBefore) {
 
 TEST(DBuffer, SizesOutsideTheirRangeAreRefused) {
   const Scene scene = testing::data_scene("cube-medium");
-  DBuffer buffer(context(), scene);
+  const RayScene rays(scene, 0);
+  DBuffer buffer(context(), scene, rays);
   buffer.set_surface(testing::receivers({{0, 0, 0}}, Vec3(0, 1, 0), 1));
-  for (const int size : {-1, 0, 15, 8193}) EXPECT_THROW(buffer.render(scene.light, {.size = size}), UsageError) << size;
+  for (const int size : {-1, 0, 15, 8193})
+    EXPECT_THROW(buffer.render(scene.light, {.size = size}), UsageError) << size;
   EXPECT_NO_THROW(buffer.render(scene.light, {.size = 16}));
 }
 

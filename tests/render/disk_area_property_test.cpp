@@ -18,9 +18,9 @@ struct BigVec {
   BigVec(const Vec3& p) : x(p.x), y(p.y), z(p.z) {}
 };
 
-/// The signed distance, in radii, of the disk's center from the line in which the plane through x, a and b meets the
-/// light's plane, all in 113 bits: two of the plane's directions are intersected with z = 0. Positive where the center
-/// lies on the side of (a - x) × (b - x).
+/// The signed distance, in radii, of the disk's center from the line in which the plane through x, a and b
+/// meets the light's plane, all in 113 bits: two of the plane's directions are intersected with z = 0.
+/// Positive where the center lies on the side of (a - x) × (b - x).
 double exact_delta(const Vec3& receiver, const Vec3& from, const Vec3& to, double r) {
   const BigVec x(receiver), a(from), b(to);
   const Big px = a.x - x.x, py = a.y - x.y, pz = a.z - x.z;
@@ -29,7 +29,8 @@ double exact_delta(const Vec3& receiver, const Vec3& from, const Vec3& to, doubl
   const Big s = -x.z / (by_a ? pz : qz);
   const Big at_x = x.x + s * (by_a ? px : qx), at_y = x.y + s * (by_a ? py : qy);
   const Big along_x = px * qz - qx * pz, along_y = py * qz - qy * pz;
-  const Big distance = abs(along_x * at_y - along_y * at_x) / sqrt(along_x * along_x + along_y * along_y) / Big(r);
+  const Big distance =
+      abs(along_x * at_y - along_y * at_x) / sqrt(along_x * along_x + along_y * along_y) / Big(r);
   const Big side = -(x.x * (py * qz - pz * qy) + x.y * (pz * qx - px * qz) + x.z * (px * qy - py * qx));
   return static_cast<double>(side < 0 ? Big(-distance) : distance);
 }
@@ -105,9 +106,9 @@ TEST(HalfPlaneAreaProperty, AgreesWithQuadrature) {
   std::printf("worst difference: exact %.2g, fast %.2g\n", worst, worst_fast);
 }
 
-/// Both half-planes' share of the disk by strips across the first one's normal: at distance t the strip reaches from
-/// -√(1 - t²) to √(1 - t²), the second cuts it. With t = sin θ the integrand is smooth between the points where the
-/// second line meets the circle or the first line.
+/// Both half-planes' share of the disk by strips across the first one's normal: at distance t the strip
+/// reaches from -√(1 - t²) to √(1 - t²), the second cuts it. With t = sin θ the integrand is smooth between
+/// the points where the second line meets the circle or the first line.
 double two_half_planes_by_quadrature(const Chord& one, const Chord& two) {
   const double c = glm::dot(one.normal, two.normal);
   const double s = one.normal.x * two.normal.y - one.normal.y * two.normal.x;
@@ -122,12 +123,14 @@ double two_half_planes_by_quadrature(const Chord& one, const Chord& two) {
   };
   const double d1 = std::clamp(one.delta, -1.0, 1.0), d2 = std::clamp(two.delta, -1.0, 1.0);
   const double reach = std::sqrt((1.0 - d2) * (1.0 + d2));
-  std::vector<double> at{-d1, 1.0, std::clamp(-d2 * c - reach * s, -d1, 1.0), std::clamp(-d2 * c + reach * s, -d1, 1.0)};
+  std::vector<double> at{-d1, 1.0, std::clamp(-d2 * c - reach * s, -d1, 1.0),
+                         std::clamp(-d2 * c + reach * s, -d1, 1.0)};
   std::sort(at.begin(), at.end());
   double sum = 0.0;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     // The ends are moved inwards by nothing that matters, so that a jump of parallel lines is not met.
-    const double low = std::asin(std::clamp(at[i], -1.0, 1.0)), high = std::asin(std::clamp(at[i + 1], -1.0, 1.0));
+    const double low = std::asin(std::clamp(at[i], -1.0, 1.0)),
+                 high = std::asin(std::clamp(at[i + 1], -1.0, 1.0));
     const double inset = std::min(1e-13, 0.25 * (high - low));
     if (high > low) sum += integral(low + inset, high - inset, 300, strip);
   }
@@ -141,23 +144,34 @@ struct ChordPair {
 
 /// The k-th of a mixture: free, parallel, antiparallel, the same line, nearly so, tangent to the circle.
 ChordPair chord_pair(Random& random, int k) {
-  ChordPair p{{random.unit2(), random.uniform(-1.0, 1.0)}, {random.unit2(), random.uniform(-1.0, 1.0)}, "free"};
+  ChordPair p{
+      {random.unit2(), random.uniform(-1.0, 1.0)}, {random.unit2(), random.uniform(-1.0, 1.0)}, "free"};
   const double sign = k % 2 ? 1.0 : -1.0;
   switch (k % 7) {
-    case 1: p.kind = "parallel", p.two.normal = sign * p.one.normal; break;
-    case 2: p.kind = "same line", p.two = {sign * p.one.normal, sign * p.one.delta}; break;
+    case 1:
+      p.kind = "parallel", p.two.normal = sign * p.one.normal;
+      break;
+    case 2:
+      p.kind = "same line", p.two = {sign * p.one.normal, sign * p.one.delta};
+      break;
     case 3:
     case 4: {
       p.kind = "nearly the same line";
       const double turn = random.spread(1e-16, 1e-2), shift = turn * random.uniform(-1.5, 1.5);
       const glm::dvec2 n = p.one.normal, across{-n.y, n.x};
-      p.two = {sign * (std::cos(turn) * n + std::sin(turn) * across), std::clamp(sign * (p.one.delta + shift), -1.0, 1.0)};
+      p.two = {sign * (std::cos(turn) * n + std::sin(turn) * across),
+               std::clamp(sign * (p.one.delta + shift), -1.0, 1.0)};
       break;
     }
-    case 5: p.kind = "nearly tangent", p.two.delta = sign * (1.0 - random.spread(1e-17, 1e-3)); break;
-    case 6: p.kind = "both nearly tangent", p.one.delta = 1.0 - random.spread(1e-17, 1e-3),
-            p.two.delta = sign * (1.0 - random.spread(1e-17, 1e-3)); break;
-    default: break;
+    case 5:
+      p.kind = "nearly tangent", p.two.delta = sign * (1.0 - random.spread(1e-17, 1e-3));
+      break;
+    case 6:
+      p.kind = "both nearly tangent", p.one.delta = 1.0 - random.spread(1e-17, 1e-3),
+      p.two.delta = sign * (1.0 - random.spread(1e-17, 1e-3));
+      break;
+    default:
+      break;
   }
   return p;
 }
@@ -168,10 +182,12 @@ TEST(TwoHalfPlanesAreaProperty, AgreesWithQuadrature) {
   double worst = 0.0;
   for (int k = 0; k < 7'000; ++k) {
     const ChordPair p = chord_pair(random, k);
-    const double area = two_half_planes_area(p.one, p.two), exact = two_half_planes_by_quadrature(p.one, p.two);
+    const double area = two_half_planes_area(p.one, p.two),
+                 exact = two_half_planes_by_quadrature(p.one, p.two);
     worst = std::max(worst, std::abs(area - exact));
     EXPECT_NEAR(area, exact, 1e-9) << "seed " << kSeed << ", pair " << k << ", " << p.kind;
-    EXPECT_NEAR(area, two_half_planes_area(p.two, p.one), 1e-9) << "seed " << kSeed << ", pair " << k << ", swapped";
+    EXPECT_NEAR(area, two_half_planes_area(p.two, p.one), 1e-9)
+        << "seed " << kSeed << ", pair " << k << ", swapped";
     if (HasFailure()) return;
   }
   std::printf("worst difference of the area: %.2g\n", worst);

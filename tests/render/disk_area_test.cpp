@@ -13,7 +13,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 TEST(ChordOfPlane, OfAnEdgeParallelToTheLight) {
-  // The plane through the receiver on the axis and the line x = 0.25 at half its depth meets the light in x = 0.5.
+  // The plane through the receiver on the axis and the line x = 0.25 at half its depth meets the light in x =
+  // 0.5.
   const Vec3 x{0, 0, 4}, a{0.25, 1, 2}, b{0.25, -1, 2};
   const Chord chord = chord_of_plane(edge_plane(x, a, b), x, 2.0);
   EXPECT_NEAR(std::abs(chord.delta), 0.25, 1e-15);
@@ -61,7 +62,8 @@ TEST(TwoHalfPlanesArea, OfTwoDiametersIsTheAngleBetweenThem) {
 TEST(TwoHalfPlanesArea, ParallelKeepsTheSmallerAntiparallelTheStrip) {
   const double small = half_plane_area(-0.3), large = half_plane_area(0.6);
   EXPECT_NEAR(two_half_planes_area({{0.6, 0.8}, -0.3}, {{0.6, 0.8}, 0.6}), small, 1e-15);
-  EXPECT_NEAR(two_half_planes_area({{0.6, 0.8}, 0.3}, {{-0.6, -0.8}, 0.6}), half_plane_area(0.3) + large - 1.0, 1e-15);
+  EXPECT_NEAR(two_half_planes_area({{0.6, 0.8}, 0.3}, {{-0.6, -0.8}, 0.6}),
+              half_plane_area(0.3) + large - 1.0, 1e-15);
   EXPECT_NEAR(two_half_planes_area({{0.6, 0.8}, -0.3}, {{-0.6, -0.8}, 0.3}), 0.0, 1e-15);
   EXPECT_NEAR(two_half_planes_area({{0.6, 0.8}, -0.5}, {{-0.6, -0.8}, 0.2}), 0.0, 1e-15);
 }

@@ -52,8 +52,8 @@ std::vector<float> run_shader(gl::Context& context, const Inputs& inputs, Formul
   context.make_current();
   const gl::Functions& gl = context.functions();
   const auto width = static_cast<GLsizei>(inputs.size());
-  const gl::Program program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
-                                 {GL_FRAGMENT_SHADER, "the test's own", kFormulas}});
+  const gl::Program program(
+      gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"}, {GL_FRAGMENT_SHADER, "the test's own", kFormulas}});
   const Object texture(gl, Object::Kind::kTexture), target(gl, Object::Kind::kTexture),
       framebuffer(gl, Object::Kind::kFramebuffer), array(gl, Object::Kind::kVertexArray);
   const auto storage = [&](const Object& of, GLenum format, GLsizei height) {
@@ -81,11 +81,18 @@ std::vector<float> run_shader(gl::Context& context, const Inputs& inputs, Formul
   return out;
 }
 
-glm::vec4 to_float(const Vec3& p, double fourth = 0.0) { return glm::vec4(glm::dvec4(p, fourth)); }
-Vec3 to_double(const glm::vec4& p) { return {p.x, p.y, p.z}; }
+glm::vec4 to_float(const Vec3& p, double fourth = 0.0) {
+  return glm::vec4(glm::dvec4(p, fourth));
+}
+Vec3 to_double(const glm::vec4& p) {
+  return {p.x, p.y, p.z};
+}
 
-/// A float chord whose normal is a unit vector as well as float has it, and the same chord in double, normalised.
-Chord chord_of(const glm::vec4& p) { return {glm::normalize(glm::dvec2(p.x, p.y)), p.z}; }
+/// A float chord whose normal is a unit vector as well as float has it, and the same chord in double,
+/// normalised.
+Chord chord_of(const glm::vec4& p) {
+  return {glm::normalize(glm::dvec2(p.x, p.y)), p.z};
+}
 
 class GlBackend : public ::testing::TestWithParam<gl::Backend> {
  protected:
@@ -100,7 +107,9 @@ class GlBackend : public ::testing::TestWithParam<gl::Backend> {
       EXPECT_NEAR(out[i], expected, bound) << "seed " << kSeed << ", column " << i << ", formula " << formula;
       if (HasFailure()) return;
     }
-    std::printf("formula %d on %s: worst difference %.2g\n", formula, gl::name_of(GetParam()), worst);
+    static constexpr const char* kNames[] = {"half plane", "half plane, fast", "two half planes",
+                                             "edge",       "normal x",         "normal y"};
+    std::printf("%s, %s: worst difference %.2g\n", gl::name_of(GetParam()), kNames[formula], worst);
   }
   static constexpr std::uint64_t kSeed = 7'041;
   std::unique_ptr<gl::Context> context_;
@@ -119,10 +128,13 @@ TEST_P(GlBackend, IsOpenGl45AndSaysWhatItIs) {
 TEST_P(GlBackend, HalfPlaneAreasAreThoseOfCpp) {
   Random random(kSeed);
   Inputs inputs;
-  for (const float delta : {-2.0f, -1.0f, 0.0f, 1.0f, 2.0f, std::numeric_limits<float>::infinity()}) inputs.add(glm::vec4(delta));
+  for (const float delta : {-2.0f, -1.0f, 0.0f, 1.0f, 2.0f, std::numeric_limits<float>::infinity()})
+    inputs.add(glm::vec4(delta));
   for (int k = 0; k < 4'000; ++k) {
     const double near = random.spread(1e-8, 1.0);
-    inputs.add(glm::vec4(static_cast<float>(k % 2 ? random.uniform(-1.1, 1.1) : k % 4 ? 1.0 - near : near - 1.0)));
+    inputs.add(glm::vec4(static_cast<float>(k % 2   ? random.uniform(-1.1, 1.1)
+                                            : k % 4 ? 1.0 - near
+                                                    : near - 1.0)));
   }
   const auto delta = [&](std::size_t i) { return double{inputs.rows[0][i].x}; };
   expect_same(inputs, kHalfPlane, 1e-6, [&](std::size_t i) { return half_plane_area(delta(i)); });
@@ -134,11 +146,13 @@ TEST_P(GlBackend, TwoHalfPlanesAreaIsThatOfCpp) {
   Inputs inputs;
   for (int k = 0; k < 8'000; ++k) {
     const glm::dvec2 n = random.unit2();
-    const double turn = k % 4 == 0 ? random.uniform(-3.2, 3.2) : random.spread(1e-9, 1e-1) * (k % 8 < 4 ? 1 : -1);
+    const double turn =
+        k % 4 == 0 ? random.uniform(-3.2, 3.2) : random.spread(1e-9, 1e-1) * (k % 8 < 4 ? 1 : -1);
     const double sign = k % 4 < 2 ? 1.0 : -1.0;
     const glm::dvec2 m = sign * (std::cos(turn) * n + std::sin(turn) * glm::dvec2(-n.y, n.x));
     const double delta = random.uniform(-1.0, 1.0);
-    const double other = k % 4 == 0 ? random.uniform(-1.1, 1.1) : sign * (delta + turn * random.uniform(-1.5, 1.5));
+    const double other =
+        k % 4 == 0 ? random.uniform(-1.1, 1.1) : sign * (delta + turn * random.uniform(-1.5, 1.5));
     inputs.add(glm::vec4(n.x, n.y, delta, 0), glm::vec4(m.x, m.y, other, 0));
   }
   for (const float delta : {-1.0f, -0.3f, 0.0f, 0.7f, 1.0f})  // parallel, antiparallel, the same line
@@ -150,8 +164,8 @@ TEST_P(GlBackend, TwoHalfPlanesAreaIsThatOfCpp) {
   });
 }
 
-// Float is exact to 6e-8 of coordinates up to 4; the plane's normal loses what its sines lose, and δ once more where the
-// disk is small: inputs are those where the product of it all stays below 1e-5.
+// Float is exact to 6e-8 of coordinates up to 4; the plane's normal loses what its sines lose, and δ once
+// more where the disk is small: inputs are those where the product of it all stays below 1e-5.
 TEST_P(GlBackend, ChordsOfEdgesAreThoseOfCpp) {
   Random random(kSeed);
   Inputs inputs;
@@ -161,22 +175,26 @@ TEST_P(GlBackend, ChordsOfEdgesAreThoseOfCpp) {
     const Vec3 b = a + random.uniform(0.1, 1.0) * random.direction();
     const double r = random.uniform(0.1, 1.0);
     const Vec3 n = edge_plane(x, a, b);
-    if (glm::length(n) < 0.2 * glm::length(b - a) * glm::length(a - x) || std::hypot(n.x, n.y) < 0.3 * glm::length(n))
+    if (glm::length(n) < 0.2 * glm::length(b - a) * glm::length(a - x) ||
+        std::hypot(n.x, n.y) < 0.3 * glm::length(n))
       continue;
     inputs.add(to_float(x, r), to_float(a), to_float(b));
   }
   const auto chord = [&](std::size_t i) {
     const Vec3 x = to_double(inputs.rows[0][i]);
-    return chord_of_plane(edge_plane(x, to_double(inputs.rows[1][i]), to_double(inputs.rows[2][i])), x, inputs.rows[0][i].w);
+    return chord_of_plane(edge_plane(x, to_double(inputs.rows[1][i]), to_double(inputs.rows[2][i])), x,
+                          inputs.rows[0][i].w);
   };
-  expect_same(inputs, kVisibilityOfEdge, 1e-5, [&](std::size_t i) { return half_plane_area(chord(i).delta); });
+  expect_same(inputs, kVisibilityOfEdge, 1e-5,
+              [&](std::size_t i) { return half_plane_area(chord(i).delta); });
   expect_same(inputs, kNormalX, 1e-5, [&](std::size_t i) { return chord(i).normal.x; });
   expect_same(inputs, kNormalY, 1e-5, [&](std::size_t i) { return chord(i).normal.y; });
 }
 
 TEST_P(GlBackend, ShaderErrorsAreReportedWithTheCompilersLog) {
   try {
-    const gl::Program program(context_->functions(), {{GL_FRAGMENT_SHADER, "broken", "#version 450 core\nvoid main() { nonsense; }\n"}});
+    const gl::Program program(context_->functions(), {{GL_FRAGMENT_SHADER, "broken",
+                                                       "#version 450 core\nvoid main() { nonsense; }\n"}});
     FAIL() << "compiled";
   } catch (const SystemError& e) {
     EXPECT_NE(std::string(e.what()).find("broken"), std::string::npos) << e.what();
@@ -204,7 +222,8 @@ TEST(GlContexts, OfBothBackendsLiveSideBySide) {
 
 TEST(GlContexts, NamesOfBackends) {
   for (const gl::Backend backend : kBackends) EXPECT_EQ(gl::backend_of(gl::name_of(backend)), backend);
-  for (const char* name : {"", "glx", "OSMesa", "egl "}) EXPECT_THROW(gl::backend_of(name), UsageError) << name;
+  for (const char* name : {"", "glx", "OSMesa", "egl "})
+    EXPECT_THROW(gl::backend_of(name), UsageError) << name;
   try {
     gl::backend_of("glx");
   } catch (const UsageError& e) {
@@ -227,14 +246,17 @@ TEST(GlContexts, DBufferImagesAreTheSameToTheBit) {
     const RenderResult one = d_buffer_image(scene, gl::Backend::kOsMesa, 1);
     const std::set<float> values(one.image.at("visibility").begin(), one.image.at("visibility").end());
     EXPECT_GT(values.size(), 500u) << "an image with a penumbra";
-    EXPECT_EQ(one.image.channels, d_buffer_image(scene, gl::Backend::kOsMesa, 1).image.channels) << name << ", again";
-    EXPECT_EQ(one.image.channels, d_buffer_image(scene, gl::Backend::kOsMesa, 2).image.channels) << name << ", 2 threads";
+    EXPECT_EQ(one.image.channels, d_buffer_image(scene, gl::Backend::kOsMesa, 1).image.channels)
+        << name << ", again";
+    EXPECT_EQ(one.image.channels, d_buffer_image(scene, gl::Backend::kOsMesa, 2).image.channels)
+        << name << ", 2 threads";
     const RenderResult egl = d_buffer_image(scene, gl::Backend::kEgl, 1);
     // Identical where the driver is: both of one Mesa.
     if (egl.stats["renderer"] == one.stats["renderer"]) {
       EXPECT_EQ(one.image.channels, egl.image.channels) << name << ", " << one.stats["renderer"];
     } else {
-      std::printf("osmesa: %s; egl: %s\n", one.stats["renderer"].dump().c_str(), egl.stats["renderer"].dump().c_str());
+      std::printf("osmesa: %s; egl: %s\n", one.stats["renderer"].dump().c_str(),
+                  egl.stats["renderer"].dump().c_str());
       const auto& a = one.image.at("visibility");
       const auto& b = egl.image.at("visibility");
       std::size_t differing = 0;

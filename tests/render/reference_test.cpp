@@ -17,23 +17,27 @@ using testing::Values;
 
 const Vec3 kToLight{0, 0, -1};  // of receivers on a plane z = const
 
-// A chord crosses at most about two strata a column of a 32×32 grid, and only those are uncertain, each with a variance
-// of at most 1/4 of a sample: √(64/4)/1024. (Measured: about .0024.)
+// A chord crosses at most about two strata a column of a 32×32 grid, and only those are uncertain, each with
+// a variance of at most 1/4 of a sample: √(64/4)/1024. (Measured: about .0024.)
 constexpr double kNoiseOfOneChord = 0.0039;
 
 /// A half-plane x ≤ 0 at depth `z`, wide enough for every receiver of these tests.
-TriangleMesh half_plane(double z) { return testing::mesh_of({{0, -60, z}, {0, 60, z}, {-60, 0, z}}, {{0, 1, 2}}); }
+TriangleMesh half_plane(double z) {
+  return testing::mesh_of({{0, -60, z}, {0, 60, z}, {-60, 0, z}}, {{0, 1, 2}});
+}
 
 /// Receivers from x0 to x1 on the plane z.
 SurfaceBuffer line_of_receivers(double x0, double x1, double z, int count) {
   std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) points.push_back({x0 + (x1 - x0) * (i + 0.5) / count, 0.0137 * (i % 31), z});
+  for (int i = 0; i < count; ++i)
+    points.push_back({x0 + (x1 - x0) * (i + 0.5) / count, 0.0137 * (i % 31), z});
   return testing::receivers(points, kToLight, count);
 }
 
 ReferenceResult trace(const Scene& scene, const SurfaceBuffer& surface, int samples, std::uint64_t seed = 1) {
   const RayScene rays(scene, 0);
-  return trace_reference(scene, rays, surface, testing::every_pixel(surface), {.samples = samples, .seed = seed});
+  return trace_reference(scene, rays, surface, testing::every_pixel(surface),
+                         {.samples = samples, .seed = seed});
 }
 
 template <class Truth>
@@ -43,9 +47,11 @@ double rms_against(const SurfaceBuffer& surface, const Values& values, const Tru
   return testing::rms_difference(values, expected);
 }
 
-/// The distance, in radii, of the disk's center from the shadow that the line x = edge at depth z throws from p;
-/// positive where the center is on the side of larger x.
-double delta_of_line(const Vec3& p, double edge, double z, double r) { return -(p.x + (edge - p.x) * p.z / (p.z - z)) / r; }
+/// The distance, in radii, of the disk's center from the shadow that the line x = edge at depth z throws from
+/// p; positive where the center is on the side of larger x.
+double delta_of_line(const Vec3& p, double edge, double z, double r) {
+  return -(p.x + (edge - p.x) * p.z / (p.z - z)) / r;
+}
 
 TEST(Reference, HalfPlaneIsTheChordFormula) {
   const double r = 0.8, z = 5.0, depth = 10.0;
@@ -53,7 +59,8 @@ TEST(Reference, HalfPlaneIsTheChordFormula) {
   const SurfaceBuffer surface = line_of_receivers(-1.0, 1.0, depth, 4'000);
   const ReferenceResult v = trace(scene, surface, 1024);
   EXPECT_EQ(v.samples, 1024);
-  const double rms = rms_against(surface, v.visibility, [&](const Vec3& p) { return half_plane_area(delta_of_line(p, 0.0, z, r)); });
+  const double rms = rms_against(surface, v.visibility,
+                                 [&](const Vec3& p) { return half_plane_area(delta_of_line(p, 0.0, z, r)); });
   std::printf("RMS difference %.4f\n", rms);
   EXPECT_LE(rms, kNoiseOfOneChord);
   EXPECT_GE(rms, 1e-4) << "1024 rays are noisy";
@@ -82,7 +89,8 @@ TEST(Reference, SlabLeavesTheDiskWithoutAStrip) {
   const Scene scene = testing::scene_in_light_frame(r, {testing::rectangle(-half, half, -60, 60, z)});
   const SurfaceBuffer surface = line_of_receivers(-1.5, 1.5, depth, 4'000);
   const double rms = rms_against(surface, trace(scene, surface, 1024).visibility, [&](const Vec3& p) {
-    return 1.0 - half_plane_area(delta_of_line(p, -half, z, r)) + half_plane_area(delta_of_line(p, half, z, r));
+    return 1.0 - half_plane_area(delta_of_line(p, -half, z, r)) +
+           half_plane_area(delta_of_line(p, half, z, r));
   });
   std::printf("RMS difference %.4f\n", rms);
   EXPECT_LE(rms, kNoiseOfOneChord * std::sqrt(2.0)) << "two chords";
@@ -92,7 +100,8 @@ TEST(Reference, SlabLeavesTheDiskWithoutAStrip) {
 double lens(double r, double s, double d) {
   if (d >= r + s) return 0.0;
   if (d <= std::abs(r - s)) return kPi * std::min(r, s) * std::min(r, s);
-  const double a = std::acos((d * d + r * r - s * s) / (2 * d * r)), b = std::acos((d * d + s * s - r * r) / (2 * d * s));
+  const double a = std::acos((d * d + r * r - s * s) / (2 * d * r)),
+               b = std::acos((d * d + s * s - r * r) / (2 * d * s));
   return r * r * (a - 0.5 * std::sin(2 * a)) + s * s * (b - 0.5 * std::sin(2 * b));
 }
 
@@ -176,7 +185,8 @@ TEST(Reference, WithoutCastersIsTheHorizonsFraction) {
   Random random(kSeed);
   std::vector<Vec3> points, normals;
   while (points.size() < 4'000) {
-    const Vec3 x{random.uniform(-1, 1), random.uniform(-1, 1), random.spread(0.3, 10)}, n = random.direction();
+    const Vec3 x{random.uniform(-1, 1), random.uniform(-1, 1), random.spread(0.3, 10)},
+        n = random.direction();
     points.push_back(x);
     normals.push_back(n);
   }
@@ -194,7 +204,8 @@ TEST(Reference, WithoutCastersIsTheHorizonsFraction) {
       sum += (v.visibility[i] - expected) * (v.visibility[i] - expected);
       ++cut;
     }
-    ASSERT_EQ(v.unblocked[i], 1.0f) << "no caster, and O knows no horizon; seed " << kSeed << ", receiver " << i;
+    ASSERT_EQ(v.unblocked[i], 1.0f) << "no caster, and O knows no horizon; seed " << kSeed << ", receiver "
+                                    << i;
   }
   EXPECT_GT(cut, 300);
   EXPECT_LE(std::sqrt(sum / cut), kNoiseOfOneChord);
@@ -268,21 +279,22 @@ TEST(Reference, NoiseIsThatOfStratifiedRays) {
   EXPECT_LE(fine.rmse, 0.0009);
 }
 
-/// Samples of a pixel that reach the light in double, from the same points as the float rays. `unsure`: how many pass a
-/// triangle's border so closely that float may differ.
+/// Samples of a pixel that reach the light in double, from the same points as the float rays. `unsure`: how
+/// many pass a triangle's border so closely that float may differ.
 struct DoubleCount {
   int visible = 0, unsure = 0;
 };
-DoubleCount count_in_double(const Scene& scene, const SurfaceBuffer& surface, std::uint32_t pixel, int samples,
-                            std::uint64_t seed) {
+DoubleCount count_in_double(const Scene& scene, const SurfaceBuffer& surface, std::uint32_t pixel,
+                            int samples, std::uint64_t seed) {
   const LightFrame f = light_frame(scene.light);
   const detail::Strata strata(samples);
   const Vec3 x = surface.position[pixel] + kRayOffset / ray_frame(scene).scale * surface.normal[pixel];
   DoubleCount out;
   for (int i = 0; i < strata.count(); ++i) {
     const detail::DiskPoint s = detail::disk_sample(
-        detail::sample_key(seed, pixel), static_cast<std::uint32_t>(i), static_cast<float>(i % strata.columns),
-        static_cast<float>(i / strata.columns), 1.0f / static_cast<float>(strata.columns), 1.0f / static_cast<float>(strata.rows));
+        detail::sample_key(seed, pixel), static_cast<std::uint32_t>(i),
+        static_cast<float>(i % strata.columns), static_cast<float>(i / strata.columns),
+        1.0f / static_cast<float>(strata.columns), 1.0f / static_cast<float>(strata.rows));
     const Vec3 p = scene.light.center + scene.light.radius * (double{s.x} * f.u + double{s.y} * f.v);
     if (glm::dot(surface.normal[pixel], p - x) <= 0.0) continue;
     const testing::Blocked b = testing::is_blocked(scene, x, p);
@@ -314,9 +326,11 @@ TEST(Reference, NeverRisesWhenACasterIsAdded) {
   scene.objects.push_back({"floor", make_plane(6.0, 2), Vec3(0.8), false});
   Random random(31);
   for (int k = 0; k < 8; ++k)
-    scene.objects.push_back({"box", make_box({random.uniform(-2, 2), random.uniform(1, 4), random.uniform(-2, 2)},
-                                             {random.uniform(0.1, 0.6), random.uniform(0.1, 0.6), random.uniform(0.1, 0.6)}),
-                             Vec3(0.8), true});
+    scene.objects.push_back(
+        {"box",
+         make_box({random.uniform(-2, 2), random.uniform(1, 4), random.uniform(-2, 2)},
+                  {random.uniform(0.1, 0.6), random.uniform(0.1, 0.6), random.uniform(0.1, 0.6)}),
+         Vec3(0.8), true});
   Scene more = scene;
   more.objects.push_back({"added", make_icosphere({0.5, 2.2, 0.4}, 0.5, 2), Vec3(0.8), true});
   ASSERT_EQ(ray_frame(scene).scale, ray_frame(more).scale);
@@ -333,7 +347,8 @@ TEST(Reference, NeverRisesWhenACasterIsAdded) {
     fell += v1[i] < v0[i];
     if (!(v1[i] > v0[i])) continue;
     ++rose;
-    // Confirmed where double, too, says that fewer reach the light without the new caster than float says with it.
+    // Confirmed where double, too, says that fewer reach the light without the new caster than float says
+    // with it.
     const DoubleCount expected = count_in_double(scene, before.surface, i, 256, 6);
     confirmed += 256.0 * v1[i] > expected.visible + expected.unsure;
   }

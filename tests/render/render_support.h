@@ -1,4 +1,5 @@
-// What the render tests share: scenes of data/scenes, receivers placed by hand, rays in double, random numbers.
+// What the render tests share: scenes of data/scenes, receivers placed by hand, rays in double, random
+// numbers.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +63,8 @@ inline Scene scene_in_light_frame(double radius, std::vector<TriangleMesh> caste
   return scene;
 }
 
-inline TriangleMesh mesh_of(const std::vector<Vec3>& positions, const std::vector<IndexedTriangle>& triangles) {
+inline TriangleMesh mesh_of(const std::vector<Vec3>& positions,
+                            const std::vector<IndexedTriangle>& triangles) {
   return TriangleMesh::build(positions, triangles);
 }
 
@@ -72,7 +74,8 @@ inline TriangleMesh rectangle(double x0, double x1, double y0, double y1, double
 }
 
 /// Receivers that belong to no mesh: `object` 0, a face that no caster has.
-inline SurfaceBuffer receivers(const std::vector<Vec3>& positions, const std::vector<Vec3>& normals, int width) {
+inline SurfaceBuffer receivers(const std::vector<Vec3>& positions, const std::vector<Vec3>& normals,
+                               int width) {
   SurfaceBuffer s;
   s.width = width;
   s.height = static_cast<int>(positions.size()) / width;
@@ -87,10 +90,14 @@ inline SurfaceBuffer receivers(const std::vector<Vec3>& positions, const Vec3& n
   return receivers(positions, std::vector<Vec3>(positions.size(), normal), width);
 }
 
-inline Pixels every_pixel(const SurfaceBuffer& surface) {
-  Pixels pixels(surface.size());
+/// 0, 1, …, count - 1.
+inline Pixels first_pixels(std::size_t count) {
+  Pixels pixels(count);
   std::iota(pixels.begin(), pixels.end(), 0u);
   return pixels;
+}
+inline Pixels every_pixel(const SurfaceBuffer& surface) {
+  return first_pixels(surface.size());
 }
 
 inline Pixels pixels_of(const SurfaceBuffer& surface, int object) {
@@ -117,7 +124,8 @@ class View {
       for (int x = 0; x < surface.width; ++x)
         if (const float f = v[at(x, y)]; f > 0.0f && f < 1.0f) mark(near, x, y);
     Pixels out;
-    std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(out), [&](std::uint32_t i) { return near[i]; });
+    std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(out),
+                 [&](std::uint32_t i) { return near[i]; });
     return out;
   }
 
@@ -127,7 +135,8 @@ class View {
 
  private:
   std::size_t at(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) + static_cast<std::size_t>(x);
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
+           static_cast<std::size_t>(x);
   }
   void mark(std::vector<bool>& near, int x, int y) const {
     for (int j = std::max(0, y - 2); j <= std::min(surface.height - 1, y + 2); ++j)
@@ -144,9 +153,7 @@ inline Values at_pixels(const Values& image, const Pixels& pixels) {
 
 /// Error over true penumbra; the three spans list the same pixels.
 inline ErrorFigures penumbra_error(const Values& method, const Values& r1, const Values& r2) {
-  Pixels all(method.size());
-  std::iota(all.begin(), all.end(), 0u);
-  return error_figures(method, r1, r2, true_penumbra(r1, r2, all));
+  return error_figures(method, r1, r2, true_penumbra(r1, r2, first_pixels(method.size())));
 }
 
 inline double rms_difference(std::span<const float> values, std::span<const double> truth) {
@@ -155,12 +162,13 @@ inline double rms_difference(std::span<const float> values, std::span<const doub
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// Where the segment from x to p meets a triangle, in double: its parameter in (0, 1), else 2. `margin`: the smallest
-/// barycentric coordinate, how clearly it hits (negative: by how much it misses).
+/// Where the segment from x to p meets a triangle, in double: its parameter in (0, 1), else 2. `margin`: the
+/// smallest barycentric coordinate, how clearly it hits (negative: by how much it misses).
 struct SegmentHit {
   double at = 2.0, margin = -1.0;
 };
-inline SegmentHit segment_triangle(const Vec3& x, const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+inline SegmentHit segment_triangle(const Vec3& x, const Vec3& p, const Vec3& a, const Vec3& b,
+                                   const Vec3& c) {
   const Vec3 d = p - x, e1 = b - a, e2 = c - a, h = glm::cross(d, e2);
   const double det = glm::dot(e1, h);
   if (det == 0.0) return {};
@@ -170,7 +178,8 @@ inline SegmentHit segment_triangle(const Vec3& x, const Vec3& p, const Vec3& a, 
   return {t, std::min({u, v, 1.0 - u - v})};
 }
 
-/// Whether a caster hides p from x, and whether that is clear (no triangle's border within `margin` of the segment).
+/// Whether a caster hides p from x, and whether that is clear (no triangle's border within `margin` of the
+/// segment).
 struct Blocked {
   bool hidden = false, clear = true;
 };

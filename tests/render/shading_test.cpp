@@ -10,7 +10,8 @@ namespace {
 using testing::kPi;
 using testing::Random;
 
-/// The integral of cos θ cos θ' / d² over the disk above the horizon, by the midpoint rule on rings of equal width.
+/// The integral of cos θ cos θ' / d² over the disk above the horizon, by the midpoint rule on rings of equal
+/// width.
 double factor_by_quadrature(const DiskLight& light, const Vec3& x, const Vec3& n, int rings, int sectors) {
   const LightFrame f = light_frame(light);
   const double ring = light.radius / rings, sector = 2.0 * kPi / sectors;
@@ -80,16 +81,20 @@ Place place_of(Random& random, int k) {
     return Vec3(at, depth);
   };
   switch (k % 5) {
-    case 0: return {about(random.spread(0.5, 20), random.spread(0.1, 10)), random.direction(), "anywhere"};
-    case 1: return {about(random.spread(0.5, 20), 0.0), random.direction(), "on the axis"};
-    case 2: return {about(random.spread(0.5, 20), random.spread(1e-15, 1e-3)), random.direction(), "near the axis"};
+    case 0:
+      return {about(random.spread(0.5, 20), random.spread(0.1, 10)), random.direction(), "anywhere"};
+    case 1:
+      return {about(random.spread(0.5, 20), 0.0), random.direction(), "on the axis"};
+    case 2:
+      return {about(random.spread(0.5, 20), random.spread(1e-15, 1e-3)), random.direction(), "near the axis"};
     case 3: {  // the tangent plane meets the disk
       const Vec3 x = about(random.spread(0.5, 10), random.uniform(0.1, 5));
       const Vec3 towards = glm::normalize(Vec3(random.uniform(0.0, 1.0) * random.unit2(), 0.0) - x);
       const Vec3 n = glm::normalize(glm::cross(towards, random.direction()));
       return {x, n, "grazing"};
     }
-    default: return {about(random.spread(0.05, 0.5), random.uniform(0.0, 1.5)), random.direction(), "close"};
+    default:
+      return {about(random.spread(0.05, 0.5), random.uniform(0.0, 1.5)), random.direction(), "close"};
   }
 }
 
@@ -109,8 +114,8 @@ TEST(DiskIrradianceFactorProperty, AgreesWithQuadrature) {
     const double all = kPi * 1.0 / (1.0 + p.x.z * p.x.z);  // what a receiver on the axis would get
     const double error = std::abs(disk_irradiance_factor(light, x, n) - expected) / all;
     worst = std::max(worst, error);
-    // Midpoints on a grid of step h are wrong by the order of h² times the integrand's curvature, and by h² where the
-    // horizon cuts it.
+    // Midpoints on a grid of step h are wrong by the order of h² times the integrand's curvature, and by h²
+    // where the horizon cuts it.
     ASSERT_LE(error, 1e-4) << "seed " << kSeed << ", receiver " << k << ", " << p.kind << ", " << expected;
   }
   std::printf("worst difference: %.2g of the factor on the axis\n", worst);
@@ -126,9 +131,12 @@ TEST(DiskIrradianceFactorProperty, OfTwoSidesDifferByThePlainLambertIntegral) {
     const auto signed_factor = [&](const Vec3& n) {
       return disk_irradiance_factor(light, p.x, n) - disk_irradiance_factor(light, p.x, -n);
     };
-    const double sum = p.n.x * signed_factor({1, 0, 0}) + p.n.y * signed_factor({0, 1, 0}) + p.n.z * signed_factor({0, 0, 1});
+    const double sum = p.n.x * signed_factor({1, 0, 0}) + p.n.y * signed_factor({0, 1, 0}) +
+                       p.n.z * signed_factor({0, 0, 1});
     ASSERT_NEAR(signed_factor(p.n), sum, 1e-11) << "seed " << kSeed << ", receiver " << k << ", " << p.kind;
-    ASSERT_NEAR(fraction_above_horizon(light, p.x, p.n) + fraction_above_horizon(light, p.x, -p.n), 1.0, 1e-12) << k;
+    ASSERT_NEAR(fraction_above_horizon(light, p.x, p.n) + fraction_above_horizon(light, p.x, -p.n), 1.0,
+                1e-12)
+        << k;
   }
 }
 
@@ -137,7 +145,8 @@ TEST(Shade, IsTheProductOfItsFactors) {
   scene.objects[0].albedo = {0.2, 0.4, 0.8};
   scene.radiance = {3, 5, 7};
   const Vec3 x{0.5, 0.25, 4}, up{0, 0, -1}, down{0, 0, 1}, side{1, 0, 0};
-  SurfaceBuffer surface = testing::receivers({x, x, x, {0, 0, 4}, {0, 0, -1}, x}, std::vector<Vec3>{up, up, down, side, up, up}, 3);
+  SurfaceBuffer surface = testing::receivers({x, x, x, {0, 0, 4}, {0, 0, -1}, x},
+                                             std::vector<Vec3>{up, up, down, side, up, up}, 3);
   surface.object[5] = -1;
   const Image image = shade(scene, surface, std::vector<float>{1.0f, 0.25f, 0.0f, 0.5f, 0.0f, 1.0f}, 2);
   const double factor = disk_irradiance_factor(scene.light, x, up);

@@ -15,7 +15,8 @@ Scene known_scene() {
   scene.camera = {{1.3, 4, 6}, {0.1, 0.3, 0}, {0, 1, 0}, 40};
   scene.objects.push_back({"floor", make_plane(3.0, 4), Vec3(0.8), false});
   scene.objects.push_back({"box", make_box({0, 0.6, 0}, {0.5, 0.6, 0.4}), Vec3(0.8), true});
-  scene.objects.push_back({"triangle", make_triangle({-1, 0.2, 1}, {-0.2, 0.2, 1.4}, {-0.8, 1.2, 1}), Vec3(0.8), true});
+  scene.objects.push_back(
+      {"triangle", make_triangle({-1, 0.2, 1}, {-0.2, 0.2, 1.4}, {-0.8, 1.2, 1}), Vec3(0.8), true});
   return scene;
 }
 
@@ -36,7 +37,8 @@ Nearest nearest_face(const Scene& scene, const Vec3& origin, const Vec3& far) {
       const testing::SegmentHit hit = testing::segment_triangle(origin, far, p[t[0]], p[t[1]], p[t[2]]);
       if (hit.at > 1.0) continue;
       if (std::abs(hit.margin) < 1e-4) out.clear = false;
-      if (hit.margin >= 0.0 && hit.at < out.at) out.object = static_cast<int>(o), out.face = f, out.at = hit.at;
+      if (hit.margin >= 0.0 && hit.at < out.at)
+        out.object = static_cast<int>(o), out.face = f, out.at = hit.at;
     }
   }
   return out;
@@ -51,7 +53,8 @@ TEST(SurfaceBuffer, SeesTheNearestFace) {
   for (int y = 0; y < 72; ++y) {
     for (int x = 0; x < 96; ++x) {
       const std::size_t i = static_cast<std::size_t>(y * 96 + x);
-      const Nearest expected = nearest_face(scene, pixels.origin, pixels.origin + 100.0 * pixels.direction(x + 0.5, y + 0.5));
+      const Nearest expected =
+          nearest_face(scene, pixels.origin, pixels.origin + 100.0 * pixels.direction(x + 0.5, y + 0.5));
       ++seen[static_cast<std::size_t>(view.surface.object[i] + 1)];
       if (!expected.clear) {
         ++unclear;
