@@ -40,6 +40,7 @@ struct DBuffer::Impl {
     glm::mat3 axes;  ///< scene frame → light's frame
     glm::vec3 offset;
     std::vector<Supports> supports;
+    std::vector<std::vector<GapFace>> gaps;
     detail::EntryGeometry geometry;
     std::vector<detail::Target> targets;
   };
@@ -182,8 +183,9 @@ void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& 
     silhouettes.push_back(find_silhouettes(*casters[i].mesh, classes[i]));
   clock.finish("silhouette");
   for (std::size_t i = 0; i < casters.size(); ++i)
-    plan.supports.push_back(
-        find_supports(*casters[i].mesh, casters[i].rings, light, classes[i], silhouettes[i]));
+    plan.supports.push_back(find_supports(*casters[i].mesh, casters[i].rings, light, silhouettes[i]));
+  for (std::size_t i = 0; i < casters.size(); ++i)
+    plan.gaps.push_back(find_gap_faces(*casters[i].mesh, light, classes[i], plan.supports[i]));
   clock.finish("supports");
   std::vector<detail::FacetReach> reach;
   for (std::size_t i = 0; i < casters.size(); ++i)
@@ -198,8 +200,8 @@ void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& 
   plan.targets = detail::choose_targets(low - 2.0 * texel, high + 2.0 * texel);
   const detail::EntryGeometryOptions entry{detail::kNearDepth, far, texel};
   for (std::size_t i = 0; i < casters.size(); ++i)
-    detail::append_entry_geometry(*casters[i].mesh, plan.space, plan.supports[i], reach[i], entry,
-                                  plan.geometry);
+    detail::append_entry_geometry(*casters[i].mesh, plan.space, plan.supports[i], plan.gaps[i], reach[i],
+                                  entry, plan.geometry);
   clock.finish("facets");
 
   std::size_t faces = 0, mixed = 0, umbra = 0, penumbra = 0, band = 0, facets = 0, cones = 0;
@@ -325,7 +327,7 @@ std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& 
 DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options) {
   DBufferFrame frame;
   StageClock clock;
-  Plan plan{detail::LightSpace(light, scale), {}, {}, {}, {}, {}};
+  Plan plan{detail::LightSpace(light, scale), {}, {}, {}, {}, {}, {}};
   plan.axes = light_matrix(plan.space.axes);
   plan.offset = glm::vec3(plan.space.to_light(origin));
   find_geometry(light, options, plan, clock, frame.counts);

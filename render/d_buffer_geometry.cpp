@@ -21,10 +21,12 @@ Uvw project(const Vec3& p) {
 class Appender {
  public:
   Appender(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-           const FacetReach& reach, const EntryGeometryOptions& options, EntryGeometry& out)
+           const std::vector<GapFace>& gaps, const FacetReach& reach, const EntryGeometryOptions& options,
+           EntryGeometry& out)
       : mesh_(mesh),
         space_(space),
         supports_(supports),
+        gaps_(gaps),
         reach_(reach),
         options_(options),
         out_(out),
@@ -36,8 +38,9 @@ class Appender {
       if (reach_.facets[i] > 0.0f) add_facet(i);
     }
     for (std::size_t i = 0; i < supports_.cones.size(); ++i)
-      if (reach_.cones[i] > 0.0f) add_cone(supports_.cones[i], reach_.cones[i]);
-    for (const GapFace& gap : supports_.gaps)
+      if (reach_.cones[i] > 0.0f && supports_.cones[i].from_facet != kNoFacet)
+        add_cone(supports_.cones[i], reach_.cones[i]);
+    for (const GapFace& gap : gaps_)
       if (reach_.facets[gap.facet] > 0.0f) add_gap(gap);
   }
 
@@ -158,6 +161,7 @@ class Appender {
   const TriangleMesh& mesh_;
   const LightSpace& space_;
   const Supports& supports_;
+  const std::vector<GapFace>& gaps_;
   const FacetReach& reach_;
   const EntryGeometryOptions& options_;
   EntryGeometry& out_;
@@ -178,8 +182,9 @@ Vec3 LightSpace::to_light(const Vec3& world) const {
 }
 
 void append_entry_geometry(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-                           const FacetReach& reach, const EntryGeometryOptions& options, EntryGeometry& out) {
-  Appender(mesh, space, supports, reach, options, out).run();
+                           const std::vector<GapFace>& gaps, const FacetReach& reach,
+                           const EntryGeometryOptions& options, EntryGeometry& out) {
+  Appender(mesh, space, supports, gaps, reach, options, out).run();
 }
 
 }  // namespace penumbra::detail

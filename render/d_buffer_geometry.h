@@ -49,6 +49,7 @@ struct EntryGeometryOptions {
 
 /// Adds one caster. Cost O(facets + cone segments).
 void append_entry_geometry(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-                           const FacetReach& reach, const EntryGeometryOptions& options, EntryGeometry& out);
+                           const std::vector<GapFace>& gaps, const FacetReach& reach,
+                           const EntryGeometryOptions& options, EntryGeometry& out);
 
 }  // namespace penumbra::detail

@@ -10,7 +10,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 #include <tuple>
+
+#include "volumes/tangent_planes.h"
 
 namespace penumbra {
 namespace {
@@ -43,6 +46,16 @@ constexpr double kOnPlane = 1e-11;
 
 constexpr double kSharpestTurn = 0.93 * kPi;
 
+/// Which kind of facet a tangent plane carries, by the sides of the one or two opposite vertices (positive:
+/// the disk's). An edge between coplanar faces carries none.
+std::optional<SupportKind> facet_kind(Sign left, std::optional<Sign> right) {
+  const Sign low = right ? std::min(left, *right) : left, high = right ? std::max(left, *right) : left;
+  if (low == Sign::kZero && high == Sign::kZero && right) return std::nullopt;
+  if (high != Sign::kPositive) return SupportKind::kPenumbra;
+  if (low != Sign::kNegative) return SupportKind::kUmbra;
+  return std::nullopt;
+}
+
 /// An end of a facet at a vertex.
 struct FacetEnd {
   VertexId vertex;
@@ -54,11 +67,10 @@ struct FacetEnd {
 
 class Finder {
  public:
-  Finder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
-         const Classification& classes)
+  Finder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light)
       : mesh_(mesh),
         rings_(rings),
-        classes_(classes),
+        light_(light),
         frame_(light_frame(light)),
         center_(light.center),
         r_(light.radius) {}
@@ -66,7 +78,7 @@ class Finder {
   Supports run(const Silhouettes& silhouettes) {
     for (EdgeId e : silhouettes.band) add_facets(e);
     link_vertices();
-    fill_gaps();
+    add_full_cones(silhouettes);
     return std::move(out_);
   }
 
@@ -78,37 +90,32 @@ class Finder {
 
   void add_facets(EdgeId id) {
     const Edge& e = mesh_.edges()[index(id)];
-    const Vec3 a = local(e.from), b = local(e.to);
-    double angles[2];
-    if (std::max(a.z, b.z) <= 0.0 || !tangent_angles(a, b, r_, angles)) return;
-    if (angles[1] < angles[0]) std::swap(angles[0], angles[1]);
-    const Vec3& v = a.z > b.z ? a : b;  // the end in front
-    const SideOfPlane left(v, local(e.left_apex), r_);
-    const SideOfPlane right = e.is_boundary() ? left : SideOfPlane(v, local(e.right_apex), r_);
-    for (double angle : angles) {
-      const double l = left.at(angle), r = right.at(angle);
-      if (std::min(l, r) >= -kOnPlane)
-        add_facet(id, SupportKind::kPenumbra, angle, a, b);
-      else if (std::max(l, r) <= kOnPlane)
-        add_facet(id, SupportKind::kUmbra, angle, a, b);
+    const Vec3 &a = mesh_.position(e.from), &b = mesh_.position(e.to);
+    if (is_behind(light_, a) && is_behind(light_, b)) return;
+    if (line_outside_disk(a, b, light_) != Sign::kPositive) return;
+    const auto planes = tangent_planes(a, b, light_);
+    if (!planes) return;
+    for (const Tangent which : {Tangent::kFirst, Tangent::kSecond}) {
+      const Sign left = side_of_tangent_plane(a, b, mesh_.position(e.left_apex), which, light_);
+      std::optional<Sign> right;
+      if (!e.is_boundary()) right = side_of_tangent_plane(a, b, mesh_.position(e.right_apex), which, light_);
+      if (const auto kind = facet_kind(left, right))
+        add_facet(id, *kind, which, (*planes)[static_cast<std::size_t>(which)].normal);
     }
   }
 
-  void add_facet(EdgeId id, SupportKind kind, double angle, const Vec3& a, const Vec3& b) {
-    const Vec3& v = a.z > b.z ? a : b;
-    const Vec3 contact{r_ * std::cos(angle), r_ * std::sin(angle), 0.0};
-    const double kappa = (r_ - std::cos(angle) * v.x - std::sin(angle) * v.y) / v.z;
-    const Vec3 beyond{std::cos(angle), std::sin(angle), kappa};
-    // Of the plane through the edge and a point beyond it, seen from the contact: its positive side must be
-    // lit.
-    const double turn = glm::dot(glm::cross(contact - v, b - a), beyond);
-    const bool lit_is_beyond = kind == SupportKind::kUmbra;
-    out_.facets.push_back({id, kind, (turn > 0.0) != lit_is_beyond, wrap(angle)});
-    const auto facet = static_cast<std::uint32_t>(out_.facets.size() - 1);
+  /// `normal` is the plane's, towards the disk; the contact is where the rim goes farthest against it.
+  void add_facet(EdgeId id, SupportKind kind, Tangent which, const Vec3& normal) {
+    const double angle = wrap(std::atan2(-glm::dot(normal, frame_.v), -glm::dot(normal, frame_.u)));
+    // The plane through the edge and a receiver beyond it has the normal (a - x) × (b - a), which is against
+    // `normal` for kFirst. It has to point to the lit side: the disk's for a penumbra, the other for an
+    // umbra.
+    const bool flipped = (which == Tangent::kFirst) == (kind == SupportKind::kPenumbra);
+    const auto facet = static_cast<std::uint32_t>(out_.facets.size());
+    out_.facets.push_back({id, kind, flipped, angle});
     const Edge& e = mesh_.edges()[index(id)];
-    const bool flipped = out_.facets.back().flipped;
-    ends_.push_back({e.from, kind, wrap(angle), facet, !flipped});
-    ends_.push_back({e.to, kind, wrap(angle), facet, flipped});
+    ends_.push_back({e.from, kind, angle, facet, !flipped});
+    ends_.push_back({e.to, kind, angle, facet, flipped});
   }
 
   void link_vertices() {
@@ -154,7 +161,7 @@ class Finder {
       const FacetEnd& from = ends[i];
       const FacetEnd& to = ends[(i + 1) % ends.size()];
       const double to_angle = i + 1 < ends.size() ? to.angle : to.angle + 2.0 * kPi;
-      if (to_angle - from.angle <= 1e-12) continue;
+      if (to_angle <= from.angle) continue;
       const double middle = 0.5 * (from.angle + to_angle);
       const bool supported = from.kind == SupportKind::kPenumbra ? ring_is_beyond(from.vertex, middle)
                                                                  : star_covers_disk_side(from.vertex, middle);
@@ -163,27 +170,20 @@ class Finder {
     }
   }
 
-  /// Breadth first from the umbra facets over the mixed faces turned away from the center.
-  void fill_gaps() {
-    std::vector<bool> seen(mesh_.triangles().size(), false);
-    for (std::uint32_t i = 0; i < out_.facets.size(); ++i)
-      if (out_.facets[i].kind == SupportKind::kUmbra) visit_gaps_beside(out_.facets[i].edge, i, seen);
-    for (std::size_t next = 0; next < out_.gaps.size(); ++next) {
-      const GapFace gap = out_.gaps[next];
-      for (EdgeId e : mesh_.face_edges()[index(gap.face)]) visit_gaps_beside(e, gap.facet, seen);
-    }
-  }
-
-  void visit_gaps_beside(EdgeId id, std::uint32_t facet, std::vector<bool>& seen) {
-    const Edge& e = mesh_.edges()[index(id)];
-    for (FaceId f : {e.left, e.right}) {
-      if (f == kNone<FaceId> || seen[index(f)] || classes_.faces[index(f)] != FaceClass::kMixed) continue;
-      seen[index(f)] = true;
-      const IndexedTriangle& t = mesh_.triangles()[index(f)];
-      const Vec3 a = mesh_.positions()[t[0]] - center_;
-      const Vec3 n = glm::cross(mesh_.positions()[t[1]] - mesh_.positions()[t[0]],
-                                mesh_.positions()[t[2]] - mesh_.positions()[t[0]]);
-      if (glm::dot(n, a) > 0.0) out_.gaps.push_back({f, facet});
+  /// Vertices of the band at which no facet ends, since every edge there points into the disk: cones all
+  /// round.
+  void add_full_cones(const Silhouettes& silhouettes) {
+    std::vector<bool> done(mesh_.positions().size(), false);
+    for (const FacetEnd& end : ends_)
+      if (end.kind == SupportKind::kPenumbra) done[index(end.vertex)] = true;
+    for (EdgeId id : silhouettes.band) {
+      const Edge& e = mesh_.edges()[index(id)];
+      for (VertexId v : {e.from, e.to}) {
+        if (done[index(v)]) continue;
+        done[index(v)] = true;
+        if (local(v).z > 0.0 && r_ > 0.0 && ring_is_beyond(v, 0.0))
+          out_.cones.push_back({v, SupportKind::kPenumbra, 0.0, 2.0 * kPi, kNoFacet, kNoFacet});
+      }
     }
   }
 
@@ -239,7 +239,7 @@ class Finder {
 
   const TriangleMesh& mesh_;
   const VertexRings& rings_;
-  const Classification& classes_;
+  const DiskLight& light_;
   const LightFrame frame_;
   const Vec3 center_;
   const double r_;
@@ -251,20 +251,32 @@ class Finder {
 
 }  // namespace
 
-bool tangent_angles(const Vec3& a, const Vec3& b, double r, double angles[2]) {
-  const Vec3& v = a.z > b.z ? a : b;
-  const SideOfPlane side(v, a.z > b.z ? b : a, r);
-  const double size = std::hypot(side.a, side.b);
-  if (!(size > 0.0) || std::abs(side.c) > size) return false;
-  const double middle = std::atan2(side.b, side.a), spread = std::acos(-side.c / size);
-  angles[0] = wrap(middle - spread);
-  angles[1] = wrap(middle + spread);
-  return true;
+Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+                       const Silhouettes& silhouettes) {
+  return Finder(mesh, rings, light).run(silhouettes);
 }
 
-Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
-                       const Classification& classes, const Silhouettes& silhouettes) {
-  return Finder(mesh, rings, light, classes).run(silhouettes);
+std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const DiskLight& light,
+                                    const Classification& classes, const Supports& supports) {
+  std::vector<GapFace> gaps;
+  std::vector<bool> seen(mesh.triangles().size(), false);
+  const auto visit_beside = [&](EdgeId id, std::uint32_t facet) {
+    const Edge& e = mesh.edges()[index(id)];
+    for (FaceId f : {e.left, e.right}) {
+      if (f == kNone<FaceId> || seen[index(f)] || classes.faces[index(f)] != FaceClass::kMixed) continue;
+      seen[index(f)] = true;
+      const IndexedTriangle& t = mesh.triangles()[index(f)];
+      const Vec3 &a = mesh.positions()[t[0]], &b = mesh.positions()[t[1]], &c = mesh.positions()[t[2]];
+      if (glm::dot(glm::cross(b - a, c - a), a - light.center) > 0.0) gaps.push_back({f, facet});
+    }
+  };
+  for (std::uint32_t i = 0; i < supports.facets.size(); ++i)
+    if (supports.facets[i].kind == SupportKind::kUmbra) visit_beside(supports.facets[i].edge, i);
+  for (std::size_t next = 0; next < gaps.size(); ++next) {
+    const GapFace gap = gaps[next];
+    for (EdgeId e : mesh.face_edges()[index(gap.face)]) visit_beside(e, gap.facet);
+  }
+  return gaps;
 }
 
 }  // namespace penumbra

@@ -35,7 +35,8 @@ struct SupportFacet {
   std::uint32_t previous = kNoFacet, next = kNoFacet;  ///< facets of the same kind that end at a, begin at b
 };
 
-/// Part of the cone over the disk with its apex at a vertex, between the contacts of two facets.
+/// Part of the cone over the disk with its apex at a vertex, between the contacts of two facets; or all of
+/// it, without facets, where every edge at the vertex points into the disk.
 struct ConeSector {
   VertexId vertex;
   SupportKind kind;
@@ -54,17 +55,15 @@ struct GapFace {
 struct Supports {
   std::vector<SupportFacet> facets;  ///< in order of edge, then angle
   std::vector<ConeSector> cones;     ///< in order of vertex, then angle
-  std::vector<GapFace> gaps;         ///< in order of steps, then of facet
 };
 
-/// Decided in double with the light's own frame (this is geometry to draw, not topology): a facet within
-/// rounding of being supported may be in or out. Only edges in front of the light's plane count; an edge that
-/// crosses the plane counts with its part in front. Cost O(band · ring).
+/// Facets are decided by the exact predicates; angles, and which sectors cones fill, in double. Only edges in
+/// front of the light's plane count; one that crosses it counts with its part in front. Cost O(band · ring).
 Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
-                       const Classification& classes, const Silhouettes& silhouettes);
+                       const Silhouettes& silhouettes);
 
-/// Rim angles of the two planes through the line ab that touch the disk of radius r in z = 0 about the origin
-/// (light's frame); false where the line crosses the open disk or lies in its plane.
-bool tangent_angles(const Vec3& a, const Vec3& b, double r, double angles[2]);
+/// In order of steps from the umbra facets, then of facet. Cost O(F).
+std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const DiskLight& light,
+                                    const Classification& classes, const Supports& supports);
 
 }  // namespace penumbra

@@ -26,7 +26,7 @@ struct Found {
 Found find(const TriangleMesh& mesh, const DiskLight& light) {
   Found f{mesh, light, classify_faces(mesh, light), {}, {}};
   f.silhouettes = find_silhouettes(mesh, f.classes);
-  f.supports = find_supports(mesh, VertexRings(mesh), light, f.classes, f.silhouettes);
+  f.supports = find_supports(mesh, VertexRings(mesh), light, f.silhouettes);
   return f;
 }
 
@@ -71,6 +71,14 @@ void expect_facets_turned_to_the_light(const Found& f) {
       const double expected = facet.kind == SupportKind::kPenumbra ? 1.0 : -1.0;
       ASSERT_NEAR(delta_at(f, facet, x), expected, 1e-9)
           << "edge " << index(facet.edge) << ", angle " << facet.rim_angle;
+    }
+    const Vec3 x = a + 0.7 * (a - contact), normal = glm::normalize(glm::cross(a - x, b - a));
+    const LightFrame frame = light_frame(f.light);
+    const Vec3 along_rim = -std::sin(facet.rim_angle) * frame.u + std::cos(facet.rim_angle) * frame.v;
+    ASSERT_NEAR(glm::dot(normal, along_rim), 0.0, 1e-9) << "the plane touches the rim at its angle";
+    const Edge& e = edge_of(f, facet);
+    for (const VertexId apex : {e.left_apex, e.is_boundary() ? e.left_apex : e.right_apex}) {
+      ASSERT_LE(glm::dot(normal, f.mesh.position(apex) - x), 1e-12) << "the faces lie on the dark side";
     }
     EXPECT_GE(facet.rim_angle, 0.0);
     EXPECT_LT(facet.rim_angle, 2 * kPi);
@@ -191,18 +199,18 @@ TEST(Supports, BehindTheLightIsNothing) {
   EXPECT_TRUE(f.supports.cones.empty());
 }
 
-TEST(Supports, TangentAnglesTouchTheRim) {
-  double angles[2];
-  EXPECT_FALSE(tangent_angles({0.1, 0, 1}, {0.1, 0, 3}, 0.5, angles)) << "the line crosses the disk";
-  EXPECT_FALSE(tangent_angles({1, 1, 0}, {2, 1, 0}, 0.5, angles)) << "the line lies in the disk's plane";
-  const Vec3 a{1, 0.3, 2}, b{-0.5, 2, 3};
-  ASSERT_TRUE(tangent_angles(a, b, 0.5, angles));
-  for (const double angle : angles) {
-    const Vec3 rim{0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.0},
-        along{-std::sin(angle), std::cos(angle), 0.0};
-    EXPECT_NEAR(glm::dot(glm::cross(a - rim, b - rim), along), 0.0, 1e-12);
-  }
-  EXPECT_GT(std::abs(std::remainder(angles[0] - angles[1], 2 * kPi)), 0.1);
+TEST(Supports, SpikeIntoTheDiskHasAConeAllRound) {
+  // Every edge at the tip, prolonged, meets the disk: no plane through one touches it.
+  const std::vector<Vec3> points{{0, 0, 0}, {0.1, -3, 0.1}, {-0.1, -3, 0.1}, {0, -3, -0.1}};
+  const std::vector<IndexedTriangle> triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  const Found f = find(TriangleMesh::build(points, triangles), {{0, 4, 0}, {0, -1, 0}, 2.0});
+  ASSERT_EQ(f.supports.cones.size(), 1u);
+  const ConeSector& cone = f.supports.cones[0];
+  EXPECT_EQ(index(cone.vertex), 0u);
+  EXPECT_EQ(cone.kind, SupportKind::kPenumbra);
+  EXPECT_EQ(cone.from_facet, kNoFacet);
+  EXPECT_EQ(cone.to_facet, kNoFacet);
+  EXPECT_NEAR(cone.to_angle - cone.from_angle, 2 * kPi, 1e-12);
 }
 
 /// Whether some face at v lies on the line from `contact` through v + offset, looking at v's faces alone.
@@ -276,8 +284,9 @@ TEST(Supports, GapFacesAreMixedAndTurnedAway) {
   for (const char* name : {"torus-large", "sphere-large"}) {
     const testing::SceneCaster scene = testing::load_scene(name);
     const Found f = find(scene.mesh, scene.light);
-    gaps += f.supports.gaps.size();
-    for (const GapFace& gap : f.supports.gaps) {
+    const std::vector<GapFace> found = find_gap_faces(f.mesh, f.light, f.classes, f.supports);
+    gaps += found.size();
+    for (const GapFace& gap : found) {
       EXPECT_EQ(f.classes.faces[index(gap.face)], FaceClass::kMixed);
       const IndexedTriangle& t = f.mesh.triangles()[index(gap.face)];
       const auto p = f.mesh.positions();
