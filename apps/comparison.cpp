@@ -24,7 +24,9 @@ constexpr double kPositionTolerance = 1e-5;
 constexpr int kResamples = 65'536;
 constexpr double kWorstFraction = 0.02;
 constexpr std::size_t kWorstAtLeast = 1'000;
-constexpr std::uint64_t kSeeds[3] = {1, 2, 3};  // two references, then the worst pixels again
+// Two references, then the worst pixels again. No seed that a person would give a rendering: against itself a
+// noisy image would look free of error.
+constexpr std::uint64_t kSeeds[3] = {0x9e3779b97f4a7c15, 0xbf58476d1ce4e5b9, 0x94d049bb133111eb};
 
 // Receivers of the image: every pixel that sees a surface, of one object where asked.
 std::vector<std::uint32_t> receivers(const Image& image, std::optional<int> object) {
@@ -32,7 +34,7 @@ std::vector<std::uint32_t> receivers(const Image& image, std::optional<int> obje
   const std::vector<float>& visibility = image.at("visibility");
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (!(objects[i] >= 0.0f) || (object && static_cast<int>(objects[i]) != *object)) continue;
+    if (!(objects[i] >= 0.0f) || (object && objects[i] != static_cast<float>(*object))) continue;
     if (!std::isfinite(visibility[i]))
       throw UsageError("visibility of pixel " + std::to_string(i) + " is not finite; render the image again");
     pixels.push_back(static_cast<std::uint32_t>(i));
@@ -54,7 +56,7 @@ bool keep_agreeing(Comparison& comparison, Agrees agrees) {
 }
 
 bool same_point(const Image& image, const SurfaceBuffer& surface, std::size_t i, double tolerance) {
-  if (static_cast<int>(image.at("object")[i]) != surface.object[i]) return false;
+  if (image.at("object")[i] != static_cast<float>(surface.object[i])) return false;
   const Vec3 point(image.at("P.X")[i], image.at("P.Y")[i], image.at("P.Z")[i]);
   return glm::distance(point, surface.position[i]) <= tolerance;
 }

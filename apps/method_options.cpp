@@ -26,7 +26,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value
 
 void add_reference_options(CLI::App& command, ReferenceOptions& options) {
   const char* group = "Method reference: stratified rays to the disk (Embree)";
-  command.add_option("--samples", options.samples, "Rays a pixel, rounded up to a multiple of 16")
+  command.add_option("--samples", options.samples, "Rays a pixel, rounded up to ⌊√N⌋ rows of equal length")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str()
       ->group(group);

@@ -1,7 +1,6 @@
 #include "render/d_buffer.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -34,25 +33,35 @@ struct DBuffer::Impl {
   void set_surface(const SurfaceBuffer& surface);
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
 
+  /// Where one caster's shadow is bounded.
+  struct Boundary {
+    Classification classes;
+    Silhouettes silhouettes;
+    Supports supports;
+    std::vector<GapFace> gaps;
+    detail::FacetReach reach;
+  };
   /// What one frame knows before anything is drawn.
   struct Plan {
     detail::LightSpace space;
     glm::mat3 axes;  ///< scene frame → light's frame
     glm::vec3 offset;
-    std::vector<Supports> supports;
-    std::vector<std::vector<GapFace>> gaps;
-    detail::EntryGeometry geometry;
-    std::vector<detail::Target> targets;
+    std::vector<Boundary> boundaries{};  ///< one per caster
+    detail::EntryGeometry geometry{};
+    std::vector<detail::Target> targets{};
   };
-  void find_geometry(const DiskLight& light, const DBufferOptions& options, Plan& plan, StageClock& clock,
-                     nlohmann::json& counts) const;
-  void caster_window(const detail::LightSpace& space, double far_weight, glm::dvec2& low,
-                     glm::dvec2& high) const;
+  struct UvWindow {
+    glm::dvec2 low{1e300}, high{-1e300};
+  };
+  void find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const;
+  void find_geometry(const DBufferOptions& options, Plan& plan) const;
+  static nlohmann::json count(const Plan& plan);
+  UvWindow caster_window(const detail::LightSpace& space, double far_weight) const;
   double far_weight(const detail::LightSpace& space) const;
   void draw(const Plan& plan, const DBufferOptions& options, StageClock& clock);
   std::vector<float> shade(const Plan& plan, const DBufferOptions& options);
-  void set_uniforms(const Plan& plan, const DBufferOptions& options) const;
-  void bind_textures() const;
+  void set_uniforms(const gl::Program& program, const Plan& plan, const DBufferOptions& options) const;
+  void bind_textures(const gl::Program& program) const;
 
   gl::Context& context;
   const gl::Functions& gl;
@@ -63,12 +72,12 @@ struct DBuffer::Impl {
   std::vector<Caster> casters;
 
   detail::DBufferPasses passes;
-  gl::Program visibility_program;
+  gl::Program select_program, visibility_program;
   Object empty_array, framebuffer;
   std::unique_ptr<detail::DBufferLayers> layers;
 
   int width = 0, height = 0;
-  std::unique_ptr<Object> surface_position, surface_normal, visibility_texture;
+  std::unique_ptr<Object> surface_position, surface_normal, visibility_texture, mark_texture;
 };
 
 DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_)
@@ -78,6 +87,8 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
       rays(rays_),
       scale(rays_.frame().scale),
       passes(gl),
+      select_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
+                          {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}}),
       visibility_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
                               {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}}),
       empty_array(gl, Object::Kind::kVertexArray),
@@ -97,7 +108,7 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
       for (const IndexedTriangle& t : mesh.triangles())
         for (std::uint32_t v : t) indices.push_back(first_point + v);
       ranges.push_back({first_face, first_index, static_cast<std::uint32_t>(indices.size()) - first_index,
-                        mesh.is_closed()});
+                        mesh.is_closed(), bounds_of(mesh.positions())});
       casters.push_back({&mesh, VertexRings(mesh)});
     }
     first_face += static_cast<std::uint32_t>(mesh.triangles().size());
@@ -116,7 +127,7 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
   for (std::size_t i = 0; i < surface.size(); ++i) {
     if (!surface.hit(i)) continue;
     const std::uint32_t face = first_face[static_cast<std::size_t>(surface.object[i])] + surface.face[i] + 1;
-    positions[i] = glm::vec4(glm::vec3((surface.position[i] - origin) * scale), std::bit_cast<float>(face));
+    positions[i] = glm::vec4(glm::vec3((surface.position[i] - origin) * scale), static_cast<float>(face));
     normals[i] = glm::vec4(glm::vec3(surface.normal[i]), 0.0f);
   }
   const auto make = [&](GLenum format, const void* texels) {
@@ -131,6 +142,7 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
   surface_position = make(GL_RGBA32F, positions.data());
   surface_normal = make(GL_RGBA32F, normals.data());
   visibility_texture = make(GL_R32F, nullptr);
+  mark_texture = make(GL_DEPTH_COMPONENT32F, nullptr);
   gl::require_no_error(gl, "uploading the surface buffer");
 }
 
@@ -151,10 +163,8 @@ double DBuffer::Impl::far_weight(const detail::LightSpace& space) const {
 
 /// Where casters and their penumbrae are seen, in (x/z, y/z); everywhere for a caster that crosses the
 /// light's plane.
-void DBuffer::Impl::caster_window(const detail::LightSpace& space, double far, glm::dvec2& low,
-                                  glm::dvec2& high) const {
-  low = glm::dvec2(1e300);
-  high = glm::dvec2(-1e300);
+DBuffer::Impl::UvWindow DBuffer::Impl::caster_window(const detail::LightSpace& space, double far) const {
+  UvWindow window;
   for (const Caster& caster : casters) {
     std::size_t behind = 0;
     for (const Vec3& world : caster.mesh->positions()) {
@@ -165,70 +175,79 @@ void DBuffer::Impl::caster_window(const detail::LightSpace& space, double far, g
       }
       const glm::dvec2 uv = glm::dvec2(p.x, p.y) / p.z;
       const double reach = space.radius * std::max(0.0, 1.0 / p.z - far);
-      low = glm::min(low, uv - reach);
-      high = glm::max(high, uv + reach);
+      window.low = glm::min(window.low, uv - reach);
+      window.high = glm::max(window.high, uv + reach);
     }
-    if (behind > 0 && behind < caster.mesh->positions().size())
-      low = glm::dvec2(-1e9), high = glm::dvec2(1e9);
+    if (behind > 0 && behind < caster.mesh->positions().size()) return {glm::dvec2(-1e9), glm::dvec2(1e9)};
+  }
+  return window;
+}
+
+/// Classes to reach, stage by stage over all casters.
+void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const {
+  plan.boundaries.resize(casters.size());
+  const auto stage = [&](const char* name, const auto& body) {
+    for (std::size_t i = 0; i < casters.size(); ++i) body(casters[i], plan.boundaries[i]);
+    clock.finish(name);
+  };
+  stage("classify", [&](const Caster& c, Boundary& b) { b.classes = classify_faces(*c.mesh, light); });
+  stage("silhouette",
+        [&](const Caster& c, Boundary& b) { b.silhouettes = find_silhouettes(*c.mesh, b.classes); });
+  stage("supports", [&](const Caster& c, Boundary& b) {
+    b.supports = find_supports(*c.mesh, c.rings, light, b.silhouettes);
+    b.gaps = find_gap_faces(*c.mesh, light, b.classes, b.supports);
+  });
+  stage("reach", [&](const Caster& c, Boundary& b) {
+    b.reach = detail::find_reach(*c.mesh, light, b.supports, rays);
+  });
+}
+
+/// Targets, and everything that is drawn into them.
+void DBuffer::Impl::find_geometry(const DBufferOptions& options, Plan& plan) const {
+  const double far = far_weight(plan.space);
+  const UvWindow window = caster_window(plan.space, far);
+  plan.targets = detail::choose_targets(window.low, window.high, options.size);
+  if (plan.targets.empty()) return;
+  const bool hemicube = plan.targets.size() > 1;
+  const auto& w = plan.targets[0].window;
+  const double texel = std::max(w[1] - w[0], w[3] - w[2]) / options.size;
+  const detail::EntryGeometryOptions entry{detail::kNearDepth, far, texel, hemicube};
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    const Boundary& b = plan.boundaries[i];
+    detail::append_entry_geometry({*casters[i].mesh, plan.space, b.supports, b.gaps, b.reach}, entry,
+                                  plan.geometry);
   }
 }
 
-void DBuffer::Impl::find_geometry(const DiskLight& light, const DBufferOptions& options, Plan& plan,
-                                  StageClock& clock, nlohmann::json& counts) const {
-  std::vector<Classification> classes;
-  for (const Caster& caster : casters) classes.push_back(classify_faces(*caster.mesh, light));
-  clock.finish("classify");
-  std::vector<Silhouettes> silhouettes;
-  for (std::size_t i = 0; i < casters.size(); ++i)
-    silhouettes.push_back(find_silhouettes(*casters[i].mesh, classes[i]));
-  clock.finish("silhouette");
-  for (std::size_t i = 0; i < casters.size(); ++i)
-    plan.supports.push_back(find_supports(*casters[i].mesh, casters[i].rings, light, silhouettes[i]));
-  for (std::size_t i = 0; i < casters.size(); ++i)
-    plan.gaps.push_back(find_gap_faces(*casters[i].mesh, light, classes[i], plan.supports[i]));
-  clock.finish("supports");
-  std::vector<detail::FacetReach> reach;
-  for (std::size_t i = 0; i < casters.size(); ++i)
-    reach.push_back(detail::find_reach(*casters[i].mesh, light, plan.supports[i], rays));
-  clock.finish("reach");
-  glm::dvec2 low, high;
-  const double far = far_weight(plan.space);
-  caster_window(plan.space, far, low, high);
-  const double widest = std::max({1.0, std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
-  const bool hemicube = widest > detail::kWidestWindow;
-  const double texel = (hemicube ? 2.0 : std::max(high.x - low.x, high.y - low.y)) / (options.size - 4);
-  plan.targets = detail::choose_targets(low - 2.0 * texel, high + 2.0 * texel);
-  const detail::EntryGeometryOptions entry{detail::kNearDepth, far, texel};
-  for (std::size_t i = 0; i < casters.size(); ++i)
-    detail::append_entry_geometry(*casters[i].mesh, plan.space, plan.supports[i], plan.gaps[i], reach[i],
-                                  entry, plan.geometry);
-  clock.finish("facets");
-
+nlohmann::json DBuffer::Impl::count(const Plan& plan) {
   std::size_t faces = 0, mixed = 0, umbra = 0, penumbra = 0, band = 0, facets = 0, cones = 0;
-  for (std::size_t i = 0; i < casters.size(); ++i) {
-    faces += classes[i].faces.size();
-    mixed += classes[i].mixed;
-    umbra += silhouettes[i].umbra.size();
-    penumbra += silhouettes[i].penumbra.size();
-    band += silhouettes[i].band.size();
-    facets += plan.supports[i].facets.size();
-    cones += plan.supports[i].cones.size();
+  for (const Boundary& b : plan.boundaries) {
+    faces += b.classes.faces.size();
+    mixed += b.classes.mixed;
+    umbra += b.silhouettes.umbra.size();
+    penumbra += b.silhouettes.penumbra.size();
+    band += b.silhouettes.band.size();
+    facets += b.supports.facets.size();
+    cones += b.supports.cones.size();
   }
-  counts = {{"faces", faces},
-            {"mixed_faces", mixed},
-            {"umbra_edges", umbra},
-            {"penumbra_edges", penumbra},
-            {"band_edges", band},
-            {"facets", facets},
-            {"cone_sectors", cones},
-            {"targets", plan.targets.size()},
-            {"entry_triangles", (plan.geometry.penumbra.size() + plan.geometry.umbra.size()) / 3}};
+  return {{"faces", faces},
+          {"mixed_faces", mixed},
+          {"umbra_edges", umbra},
+          {"penumbra_edges", penumbra},
+          {"band_edges", band},
+          {"facets", facets},
+          {"cone_sectors", cones},
+          {"targets", plan.targets.size()},
+          {"entry_triangles", (plan.geometry.penumbra.size() + plan.geometry.umbra.size()) / 3}};
 }
 
 void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageClock& clock) {
   const int count = std::max(1, static_cast<int>(plan.targets.size()));
-  if (!layers || layers->size != options.size || layers->count != count || layers->entries != options.entries)
+  if (!layers || layers->size != options.size || layers->count != count ||
+      layers->entries != options.entries) {
+    layers.reset();  // before the new ones take memory
     layers = std::make_unique<detail::DBufferLayers>(gl, options.size, count, options.entries);
+  }
   passes.upload_entries(plan.geometry);
   gl.Finish();
   clock.finish("upload");
@@ -238,7 +257,7 @@ void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageC
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  passes.draw_occluders(plan.targets, plan.axes, plan.offset, *layers);
+  passes.draw_occluders(plan.targets, plan.space.center, plan.axes, plan.offset, *layers);
   gl.Finish();
   clock.finish("occluders");
   passes.draw_entries(plan.targets, *layers, options);
@@ -246,8 +265,9 @@ void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageC
   clock.finish("entries");
 }
 
-void DBuffer::Impl::set_uniforms(const Plan& plan, const DBufferOptions& options) const {
-  const auto at = [&](const char* name) { return visibility_program.uniform(name); };
+void DBuffer::Impl::set_uniforms(const gl::Program& program, const Plan& plan,
+                                 const DBufferOptions& options) const {
+  const auto at = [&](const char* name) { return program.uniform(name); };
   gl.UniformMatrix3fv(at("light_axes"), 1, GL_FALSE, &plan.axes[0][0]);
   gl.Uniform3f(at("light_offset"), plan.offset.x, plan.offset.y, plan.offset.z);
   gl.Uniform1f(at("radius"), static_cast<float>(plan.space.radius));
@@ -267,7 +287,7 @@ void DBuffer::Impl::set_uniforms(const Plan& plan, const DBufferOptions& options
   gl.Uniform4fv(at("target_window"), static_cast<GLsizei>(windows.size()), &windows[0][0]);
 }
 
-void DBuffer::Impl::bind_textures() const {
+void DBuffer::Impl::bind_textures(const gl::Program& program) const {
   struct Binding {
     const char* name;
     GLenum kind;
@@ -299,24 +319,28 @@ void DBuffer::Impl::bind_textures() const {
   for (const Binding& b : bindings) {
     gl.ActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
     gl.BindTexture(b.kind, b.texture);
-    gl.Uniform1i(visibility_program.uniform(b.name), unit++);
+    gl.Uniform1i(program.uniform(b.name), unit++);
   }
   gl.ActiveTexture(GL_TEXTURE0);
 }
 
+/// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
+/// second.
 std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& options) {
   gl.BindVertexArray(empty_array);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *visibility_texture, 0);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *mark_texture, 0);
   const GLenum color = GL_COLOR_ATTACHMENT0;
   gl.DrawBuffers(1, &color);
   gl::require_complete_framebuffer(gl, "shading from the D-buffer");
-  gl.Disable(GL_DEPTH_TEST);
   gl.Viewport(0, 0, width, height);
-  visibility_program.use();
-  set_uniforms(plan, options);
-  bind_textures();
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  for (const gl::Program* program : {&select_program, &visibility_program}) {
+    gl.DepthFunc(program == &select_program ? GL_ALWAYS : GL_LESS);  // the triangle's depth is 0.5
+    program->use();
+    set_uniforms(*program, plan, options);
+    bind_textures(*program);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  }
   gl.Finish();
   std::vector<float> out(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
@@ -327,10 +351,12 @@ std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& 
 DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options) {
   DBufferFrame frame;
   StageClock clock;
-  Plan plan{detail::LightSpace(light, scale), {}, {}, {}, {}, {}, {}};
-  plan.axes = light_matrix(plan.space.axes);
-  plan.offset = glm::vec3(plan.space.to_light(origin));
-  find_geometry(light, options, plan, clock, frame.counts);
+  const detail::LightSpace space(light, scale);
+  Plan plan{space, light_matrix(space.axes), glm::vec3(space.to_light(origin))};
+  find_boundaries(light, plan, clock);
+  find_geometry(options, plan);
+  clock.finish("facets");
+  frame.counts = count(plan);
   draw(plan, options, clock);
   frame.visibility = shade(plan, options);
   clock.finish("visibility");
@@ -381,6 +407,7 @@ DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& optio
   if (options.entries == 2 &&
       (options.contents != DBufferContents::kEdge || options.conflict != Conflict::kNearest))
     throw UsageError("two D-buffer entries need --dbuffer edge and --conflict nearest");
+  if (impl_->width == 0) throw UsageError("DBuffer::set_surface has to come before render");
   impl_->context.make_current();
   return impl_->render(light, options);
 }

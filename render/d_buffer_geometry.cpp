@@ -1,7 +1,6 @@
 #include "render/d_buffer_geometry.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -20,14 +19,12 @@ Uvw project(const Vec3& p) {
 
 class Appender {
  public:
-  Appender(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-           const std::vector<GapFace>& gaps, const FacetReach& reach, const EntryGeometryOptions& options,
-           EntryGeometry& out)
-      : mesh_(mesh),
-        space_(space),
-        supports_(supports),
-        gaps_(gaps),
-        reach_(reach),
+  Appender(const EntrySource& source, const EntryGeometryOptions& options, EntryGeometry& out)
+      : mesh_(source.mesh),
+        space_(source.space),
+        supports_(source.supports),
+        gaps_(source.gaps),
+        reach_(source.reach),
         options_(options),
         out_(out),
         first_(static_cast<std::uint32_t>(out.records.size() / 4)) {}
@@ -58,7 +55,7 @@ class Appender {
   void add_record(const SupportFacet& f) {
     const auto point = [&](VertexId v, std::uint32_t facet) {
       const std::uint32_t link = facet == kNoFacet ? 0 : first_ + facet + 1;
-      return glm::vec4(glm::vec3(local(v)), std::bit_cast<float>(link));
+      return glm::vec4(glm::vec3(local(v)), static_cast<float>(link));
     };
     const bool before = f.previous != kNoFacet, after = f.next != kNoFacet;
     out_.records.push_back(point(before ? begin_of(supports_.facets[f.previous]) : begin_of(f), f.previous));
@@ -81,7 +78,7 @@ class Appender {
     glm::dvec2 e = length > 1e-12 ? along / length : glm::dvec2(-downhill.y, downhill.x);
     glm::dvec2 out{-e.y, e.x};
     if (glm::dot(out, downhill) < 0.0) out = -out;
-    const double d = options_.dilation;
+    const double d = std::max(dilation(a.uv), dilation(b.uv));
     const double top = std::max(a.w, b.w);
     const auto on_plane = [&](const glm::dvec2& uv) {
       return Uvw{uv, std::clamp(a.w - glm::dot(uv - a.uv, downhill) / space_.radius, 0.0, top)};
@@ -98,11 +95,11 @@ class Appender {
     const Vec3 p = local(cone.vertex);
     if (p.z <= options_.near_depth) return;
     const Uvw apex = project(p);
-    const double reach = extent(apex.w, cone_reach) + options_.dilation;
+    const double reach = extent(apex.w, cone_reach) + dilation(apex.uv);
     const double sector = cone.to_angle - cone.from_angle;
     // A chord of half angle h, pushed out to touch the circle, overshoots by 1/cos h - 1: half a texel is
     // allowed.
-    const double allowed = std::max(1e-3, 0.5 * options_.dilation / reach);
+    const double allowed = std::max(1e-3, 0.5 * dilation(apex.uv) / reach);
     const double half = std::acos(1.0 / (1.0 + allowed));
     const int segments = std::max(1, static_cast<int>(std::ceil(sector / (2.0 * half))));
     const double step = sector / segments;
@@ -134,6 +131,10 @@ class Appender {
     for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet, c.w);
   }
 
+  double dilation(const glm::dvec2& uv) const {
+    return options_.dilation * (options_.grows_outwards ? 1.0 + glm::dot(uv, uv) : 1.0);
+  }
+
   /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest
   /// receiver.
   double extent(double w, float reach) const {
@@ -154,8 +155,6 @@ class Appender {
   void push(std::vector<EntryVertex>& triangles, const Uvw& p, std::uint32_t facet, double edge_weight) {
     triangles.push_back({static_cast<float>(p.uv.x), static_cast<float>(p.uv.y), static_cast<float>(p.w),
                          facet, static_cast<float>(edge_weight)});
-    out_.low = glm::min(out_.low, p.uv);
-    out_.high = glm::max(out_.high, p.uv);
   }
 
   const TriangleMesh& mesh_;
@@ -181,10 +180,9 @@ Vec3 LightSpace::to_light(const Vec3& world) const {
   return {glm::dot(d, axes.u), glm::dot(d, axes.v), glm::dot(d, axes.w)};
 }
 
-void append_entry_geometry(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-                           const std::vector<GapFace>& gaps, const FacetReach& reach,
-                           const EntryGeometryOptions& options, EntryGeometry& out) {
-  Appender(mesh, space, supports, gaps, reach, options, out).run();
+void append_entry_geometry(const EntrySource& source, const EntryGeometryOptions& options,
+                           EntryGeometry& out) {
+  Appender(source, options, out).run();
 }
 
 }  // namespace penumbra::detail

@@ -36,20 +36,29 @@ struct EntryVertex {
 struct EntryGeometry {
   std::vector<EntryVertex> penumbra, umbra;  ///< triangles, three vertices each
   /// Four points a facet, light's frame: previous, a, b, next (directed so that the lit side is positive);
-  /// the fourth number of the outer two is 1 + the previous or next facet, as bits; 0: none.
+  /// the fourth number of the outer two is 1 + the previous or next facet; 0: none.
   std::vector<glm::vec4> records;
-  glm::dvec2 low{1e300}, high{-1e300};  ///< bounds of (u, v)
+};
+
+/// One caster and where its shadow is bounded.
+struct EntrySource {
+  const TriangleMesh& mesh;
+  const LightSpace& space;
+  const Supports& supports;
+  const std::vector<GapFace>& gaps;
+  const FacetReach& reach;
 };
 
 struct EntryGeometryOptions {
   double near_depth;  ///< edges are cut at this depth
   double far_weight;  ///< 1/z of the farthest receiver: facets end there
   double dilation;  ///< in (u, v): facets grow by this to all sides, so that every texel they touch is drawn
+  bool
+      grows_outwards;  ///< the dilation is that of (0, 0) and grows as a hemicube's texels do, by 1 + u² + v²
 };
 
 /// Adds one caster. Cost O(facets + cone segments).
-void append_entry_geometry(const TriangleMesh& mesh, const LightSpace& space, const Supports& supports,
-                           const std::vector<GapFace>& gaps, const FacetReach& reach,
-                           const EntryGeometryOptions& options, EntryGeometry& out);
+void append_entry_geometry(const EntrySource& source, const EntryGeometryOptions& options,
+                           EntryGeometry& out);
 
 }  // namespace penumbra::detail

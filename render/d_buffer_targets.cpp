@@ -14,11 +14,13 @@ glm::dmat3 rows(const Vec3& right, const Vec3& up, const Vec3& forward) {
 
 }  // namespace
 
-std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high) {
+std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high, int size) {
+  if (!(low.x <= high.x) || !(low.y <= high.y)) return {};
   const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  const double margin = 2.0 * std::max({high.x - low.x, high.y - low.y, 1e-9}) / (size - 4);
   const double widest = std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
-  if (!(low.x < high.x) || !(low.y < high.y)) return {};
-  if (widest <= kWidestWindow) return {{rows(x, y, z), {low.x, high.x, low.y, high.y}}};
+  if (widest <= kWidestWindow)
+    return {{rows(x, y, z), {low.x - margin, high.x + margin, low.y - margin, high.y + margin}}};
   // A side faces ±x or ±y with "up" along z; its lower half would look behind the light, where nothing casts.
   const std::array<double, 4> full{-1, 1, -1, 1}, front{-1, 1, 0, 1};
   return {{rows(x, y, z), full},

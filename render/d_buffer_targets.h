@@ -19,8 +19,8 @@ struct Target {
 /// even.
 inline constexpr double kWidestWindow = 2.5;
 
-/// One perspective fitted to `low`..`high` in (x/z, y/z) where that is narrow enough, else the five sides of
-/// a hemicube.
-std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high);
+/// One perspective of size × size texels fitted to `low`..`high` in (x/z, y/z), with a margin of two texels,
+/// where that is narrow enough, else the five sides of a hemicube. None where low > high: nothing casts.
+std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high, int size);
 
 }  // namespace penumbra::detail

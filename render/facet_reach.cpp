@@ -39,6 +39,13 @@ class Prober {
     return along < kHidden ? 0.0f : static_cast<float>(along);
   }
 
+  /// Leaves of an edge that crosses the light's plane its part in front.
+  void cut_to_front(Vec3& a, Vec3& b) const {
+    const double da = glm::dot(axes_.w, a - center_), db = glm::dot(axes_.w, b - center_);
+    if (da < 0.0 && db > 0.0) a = b + (a - b) * (db / (db - da));
+    if (db < 0.0 && da > 0.0) b = a + (b - a) * (da / (da - db));
+  }
+
  private:
   double first_hit(const Vec3& from, const Vec3& direction) const {
     RTCRayHit query{};
@@ -72,7 +79,8 @@ FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Su
   const auto probe_facet = [&](std::size_t i) {
     const SupportFacet& f = supports.facets[i];
     const Edge& e = mesh.edges()[index(f.edge)];
-    const Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
+    Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
+    prober.cut_to_front(a, b);
     float reach = 0.0f;
     for (double t : {0.5, 0.1, 0.9})
       if (std::isfinite(reach)) reach = std::max(reach, prober.reach(a + t * (b - a), f.rim_angle, f.kind));

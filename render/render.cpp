@@ -75,7 +75,7 @@ struct Renderer::State {
 
 std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface,
                                                 StageClock& clock, nlohmann::json& stats) {
-  if (!context || backend != options.backend) {
+  if (!d_buffer || backend != options.backend) {
     d_buffer.reset();
     context = gl::make_context(options.backend);
     backend = options.backend;

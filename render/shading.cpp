@@ -38,7 +38,10 @@ double rim_part(const Vec3& x, const Vec3& n, double rho, double from, double to
   const double radial = n.x * cx + n.y * cy, tangential = n.y * cx - n.x * cy;
   const double a = n.z * rho, b = x.z * radial - n.z * away, d = x.z * tangential;
   const double e = away * away + x.z * x.z + rho * rho, k = 2.0 * rho * away;
-  const double s = std::sqrt((e - k) * (e + k)), q = k / (e + s);
+  // e - k and e + k, without their cancellation where x is near the rim.
+  const double nearer = (away - rho) * (away - rho) + x.z * x.z,
+               farther = (away + rho) * (away + rho) + x.z * x.z;
+  const double s = std::sqrt(nearer * farther), q = k / (e + s);
   const double turn = std::atan2(cy, cx), psi0 = from - turn, psi1 = to - turn;
   const bool on_axis = k < 1e-12 * e;
   const auto bend = [&](double psi) { return std::atan2(q * std::sin(psi), 1.0 - q * std::cos(psi)); };

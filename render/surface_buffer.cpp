@@ -50,8 +50,10 @@ void place(const Scene& scene, const PixelRays& pixels, int x, int y, std::size_
   Vec3 normal = glm::normalize(glm::cross(points[t[1]] - a, points[t[2]] - a));
   const Vec3 direction = pixels.direction(x + 0.5, y + 0.5);
   const double slope = glm::dot(normal, direction);
-  const double distance = slope != 0.0 ? glm::dot(normal, a - pixels.origin) / slope
-                                       : embree_distance / (scale * glm::length(direction));
+  const double traced = embree_distance / (scale * glm::length(direction));
+  double distance = slope != 0.0 ? glm::dot(normal, a - pixels.origin) / slope : traced;
+  // A face seen edge-on has no well-placed plane point: the double hit may run far off the face.
+  if (!(std::abs(distance - traced) <= 1e-3 * traced)) distance = traced;
   out.position[pixel] = pixels.origin + distance * direction;
   out.normal[pixel] = slope > 0.0 ? -normal : normal;
 }

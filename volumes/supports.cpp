@@ -5,6 +5,9 @@
 // positive beyond the plane, negative on the disk's side. Everything below is this one expression.
 #include "volumes/supports.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,7 +79,7 @@ class Finder {
         r_(light.radius) {}
 
   Supports run(const Silhouettes& silhouettes) {
-    for (EdgeId e : silhouettes.band) add_facets(e);
+    find_facets(silhouettes.band);
     link_vertices();
     add_full_cones(silhouettes);
     return std::move(out_);
@@ -88,20 +91,39 @@ class Finder {
     return {glm::dot(p, frame_.u), glm::dot(p, frame_.v), glm::dot(p, frame_.w)};
   }
 
-  void add_facets(EdgeId id) {
+  /// The facets of one edge: its tangent planes that support the faces there.
+  struct EdgeFacets {
+    std::array<std::optional<SupportKind>, 2> kinds;
+    std::array<Vec3, 2> normals;
+  };
+  EdgeFacets facets_of(EdgeId id) const {
+    EdgeFacets out;
     const Edge& e = mesh_.edges()[index(id)];
     const Vec3 &a = mesh_.position(e.from), &b = mesh_.position(e.to);
-    if (is_behind(light_, a) && is_behind(light_, b)) return;
-    if (line_outside_disk(a, b, light_) != Sign::kPositive) return;
+    if (is_behind(light_, a) && is_behind(light_, b)) return out;
+    if (line_outside_disk(a, b, light_) != Sign::kPositive) return out;
     const auto planes = tangent_planes(a, b, light_);
-    if (!planes) return;
+    if (!planes) return out;
     for (const Tangent which : {Tangent::kFirst, Tangent::kSecond}) {
+      const auto i = static_cast<std::size_t>(which);
       const Sign left = side_of_tangent_plane(a, b, mesh_.position(e.left_apex), which, light_);
       std::optional<Sign> right;
       if (!e.is_boundary()) right = side_of_tangent_plane(a, b, mesh_.position(e.right_apex), which, light_);
-      if (const auto kind = facet_kind(left, right))
-        add_facet(id, *kind, which, (*planes)[static_cast<std::size_t>(which)].normal);
+      out.kinds[i] = facet_kind(left, right);
+      out.normals[i] = (*planes)[i].normal;
     }
+    return out;
+  }
+
+  void find_facets(std::span<const EdgeId> band) {
+    std::vector<EdgeFacets> found(band.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, band.size(), 512), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) found[i] = facets_of(band[i]);
+    });
+    for (std::size_t i = 0; i < band.size(); ++i)
+      for (const Tangent which : {Tangent::kFirst, Tangent::kSecond})
+        if (const auto kind = found[i].kinds[static_cast<std::size_t>(which)])
+          add_facet(band[i], *kind, which, found[i].normals[static_cast<std::size_t>(which)]);
   }
 
   /// `normal` is the plane's, towards the disk; the contact is where the rim goes farthest against it.

@@ -5,6 +5,7 @@ layout(location = 0) in vec3 uvw;           // (x/z, y/z, 1/z) in the light's fr
 layout(location = 1) in uint facet;         // index of the facet's record
 layout(location = 2) in float edge_weight;  // 1/z of the edge's point that this line of the facet starts from
 
+invariant gl_Position;  // two programs share these depths
 flat out uint entry_facet;
 out float entry_edge_weight;
 

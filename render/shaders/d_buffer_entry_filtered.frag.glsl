@@ -16,8 +16,8 @@ layout(location = 0) out uint entry;
 
 // Whether two facets are one, or neighbours at a corner: the visibility of the first knows of the second already.
 bool linked(uint one, uint two) {
-  uint previous = floatBitsToUint(texelFetch(records, int(4u * one)).w);
-  uint next = floatBitsToUint(texelFetch(records, int(4u * one) + 3).w);
+  uint previous = uint(texelFetch(records, int(4u * one)).w + 0.5);
+  uint next = uint(texelFetch(records, int(4u * one) + 3).w + 0.5);
   return one == two || previous == two + 1u || next == two + 1u;
 }
 

@@ -439,11 +439,11 @@ TEST(DBuffer, SizesOutsideTheirRangeAreRefused) {
 }
 
 TEST(ChooseTargets, OneWindowWhereItFitsElseFiveSides) {
-  EXPECT_TRUE(detail::choose_targets({1e300, 1e300}, {-1e300, -1e300}).empty());
-  const auto one = detail::choose_targets({-0.5, 0.25}, {1.0, detail::kWidestWindow});
+  EXPECT_TRUE(detail::choose_targets({1e300, 1e300}, {-1e300, -1e300}, 1024).empty());
+  const auto one = detail::choose_targets({-0.5, 0.25}, {1.0, detail::kWidestWindow}, 104);
   ASSERT_EQ(one.size(), 1u);
-  EXPECT_EQ(one[0].window, (std::array<double, 4>{-0.5, 1.0, 0.25, detail::kWidestWindow}));
-  const auto five = detail::choose_targets({-0.5, 0.25}, {1.0, detail::kWidestWindow + 1e-6});
+  EXPECT_EQ(one[0].window, (std::array<double, 4>{-0.545, 1.045, 0.205, detail::kWidestWindow + 0.045}));
+  const auto five = detail::choose_targets({-0.5, 0.25}, {1.0, detail::kWidestWindow + 1e-6}, 1024);
   ASSERT_EQ(five.size(), 5u);
   for (const detail::Target& t : five) EXPECT_NEAR(glm::determinant(t.axes), 1.0, 1e-15) << "none mirrors";
   // Every direction in front of the light lies in exactly one side (but for borders).
