@@ -104,11 +104,15 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
     if (object.casts && !mesh.empty()) {
       const auto first_index = static_cast<std::uint32_t>(indices.size());
       const auto first_point = static_cast<std::uint32_t>(points.size());
-      for (const Vec3& p : mesh.positions()) points.push_back(glm::vec3((p - origin) * scale));
+      Bounds bounds_in_frame;
+      for (const Vec3& p : mesh.positions()) {
+        bounds_in_frame.add((p - origin) * scale);
+        points.push_back(glm::vec3((p - origin) * scale));
+      }
       for (const IndexedTriangle& t : mesh.triangles())
         for (std::uint32_t v : t) indices.push_back(first_point + v);
       ranges.push_back({first_face, first_index, static_cast<std::uint32_t>(indices.size()) - first_index,
-                        mesh.is_closed(), bounds_of(mesh.positions())});
+                        mesh.is_closed(), bounds_in_frame});
       casters.push_back({&mesh, VertexRings(mesh)});
     }
     first_face += static_cast<std::uint32_t>(mesh.triangles().size());
@@ -257,7 +261,7 @@ void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageC
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  passes.draw_occluders(plan.targets, plan.space.center, plan.axes, plan.offset, *layers);
+  passes.draw_occluders(plan.targets, plan.axes, plan.offset, *layers);
   gl.Finish();
   clock.finish("occluders");
   passes.draw_entries(plan.targets, *layers, options);

@@ -15,9 +15,14 @@ void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std:
   gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
-bool is_inside(const Vec3& p, const Bounds& b) {
-  return p.x >= b.low.x && p.y >= b.low.y && p.z >= b.low.z && p.x <= b.high.x && p.y <= b.high.y &&
-         p.z <= b.high.z;
+/// Whether the whole box is in front of the light's plane.
+bool is_in_front(const Bounds& b, const glm::mat3& axes, const glm::vec3& offset) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
+                      corner & 4 ? b.high.z : b.low.z);
+    if ((axes * p + offset).z <= static_cast<float>(kNearDepth)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -81,12 +86,12 @@ void DBufferPasses::bind(int unit, GLenum kind, GLuint texture) const {
   gl_.BindTexture(kind, texture);
 }
 
-/// Only faces towards the light's center, where a caster has an inside and the center is not in it: of such a
-/// caster the first surface faces the center.
-void DBufferPasses::draw_casters(const Target& target, const Vec3& light_center) {
+/// Only faces towards the light's center, where a caster has an inside and is not cut open by the light's
+/// plane: the first surface of such a caster faces the center.
+void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset) {
   set_target(occluder_program_, target);
   for (const CasterRange& caster : casters_) {
-    if (caster.closed && !is_inside(light_center, caster.bounds)) gl_.Enable(GL_CULL_FACE);
+    if (caster.closed && is_in_front(caster.bounds, axes, offset)) gl_.Enable(GL_CULL_FACE);
     gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
     const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) *
                                                       sizeof(std::uint32_t));
@@ -96,9 +101,8 @@ void DBufferPasses::draw_casters(const Target& target, const Vec3& light_center)
 }
 
 /// First surface of all; then the last of those that face the light's center.
-void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const Vec3& light_center,
-                                   const glm::mat3& axes, const glm::vec3& offset,
-                                   const DBufferLayers& layers) {
+void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes,
+                                   const glm::vec3& offset, const DBufferLayers& layers) {
   occluder_program_.use();
   gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &axes[0][0]);
   gl_.Uniform3f(occluder_program_.uniform("light_offset"), offset.x, offset.y, offset.z);
@@ -110,13 +114,13 @@ void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const Vec
     attach(layers.occluder, static_cast<int>(i));
     gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
     gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
-    draw_casters(targets[i], light_center);
+    draw_casters(targets[i], axes, offset);
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
     gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.last.texture, 0,
                                 static_cast<int>(i));
     gl_.ClearBufferfv(GL_DEPTH, 0, &nearest);
     gl_.DepthFunc(GL_LESS);
-    draw_casters(targets[i], light_center);
+    draw_casters(targets[i], axes, offset);
     gl_.DepthFunc(GL_GREATER);
   }
   gl_.Disable(GL_CLIP_DISTANCE0);

@@ -19,7 +19,7 @@ struct CasterRange {
   std::uint32_t first_face;  ///< number of its first face over all objects of the scene
   std::uint32_t first_index, index_count;
   bool closed;
-  Bounds bounds;  ///< world
+  Bounds bounds;  ///< in the frame of the uploaded points
 };
 
 class DBufferPasses {
@@ -30,8 +30,8 @@ class DBufferPasses {
                       std::vector<CasterRange> casters);
   void upload_entries(const EntryGeometry& geometry);
   /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame).
-  void draw_occluders(const std::vector<Target>& targets, const Vec3& light_center, const glm::mat3& axes,
-                      const glm::vec3& offset, const DBufferLayers& layers);
+  void draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
+                      const DBufferLayers& layers);
   void draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
                     const DBufferOptions& options);
   GLuint records() const { return record_texture_; }
@@ -42,7 +42,7 @@ class DBufferPasses {
     const gl::Object& vertices;
     std::size_t count;
   };
-  void draw_casters(const Target& target, const Vec3& light_center);
+  void draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset);
   void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into,
                  const Entries& entries, Against against, const DBufferOptions& options);
   void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into,
