@@ -78,14 +78,14 @@ class Appender {
     glm::dvec2 e = length > 1e-12 ? along / length : glm::dvec2(-downhill.y, downhill.x);
     glm::dvec2 out{-e.y, e.x};
     if (glm::dot(out, downhill) < 0.0) out = -out;
-    const double d = std::max(dilation(a.uv), dilation(b.uv));
+    const double da = dilation(a.uv), db = dilation(b.uv);
     const double top = std::max(a.w, b.w);
     const auto on_plane = [&](const glm::dvec2& uv) {
       return Uvw{uv, std::clamp(a.w - glm::dot(uv - a.uv, downhill) / space_.radius, 0.0, top)};
     };
-    const Uvw corners[4] = {on_plane(a.uv - d * e - d * out), on_plane(b.uv + d * e - d * out),
-                            on_plane(b.uv + reach_b * downhill + d * e + d * out),
-                            on_plane(a.uv + reach_a * downhill - d * e + d * out)};
+    const Uvw corners[4] = {on_plane(a.uv - da * e - da * out), on_plane(b.uv + db * e - db * out),
+                            on_plane(b.uv + reach_b * downhill + db * e + db * out),
+                            on_plane(a.uv + reach_a * downhill - da * e + da * out)};
     auto& triangles = f.kind == SupportKind::kPenumbra ? out_.penumbra : out_.umbra;
     for (int k : {0, 1, 2, 0, 2, 3}) push(triangles, corners[k], first_ + i, k == 0 || k == 3 ? a.w : b.w);
   }
@@ -131,8 +131,10 @@ class Appender {
     for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet, c.w);
   }
 
+  /// A hemicube's texel covers more of (u, v) towards the horizon: 1 + |uv| times as much across, and more
+  /// along the radius; the smaller factor is taken, since too wide a facet hides its neighbours.
   double dilation(const glm::dvec2& uv) const {
-    return options_.dilation * (options_.grows_outwards ? 1.0 + glm::dot(uv, uv) : 1.0);
+    return options_.dilation * (options_.grows_outwards ? 1.0 + glm::length(uv) : 1.0);
   }
 
   /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest

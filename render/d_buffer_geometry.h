@@ -54,7 +54,7 @@ struct EntryGeometryOptions {
   double far_weight;  ///< 1/z of the farthest receiver: facets end there
   double dilation;  ///< in (u, v): facets grow by this to all sides, so that every texel they touch is drawn
   bool
-      grows_outwards;  ///< the dilation is that of (0, 0) and grows as a hemicube's texels do, by 1 + u² + v²
+      grows_outwards;  ///< the dilation is that of (0, 0), and grows by 1 + |uv| as the texels of a hemicube do
 };
 
 /// Adds one caster. Cost O(facets + cone segments).
