@@ -28,7 +28,7 @@ struct Comparison {
 Comparison compare_images(const Image& image, const Image& reference, std::optional<int> object);
 
 struct TraceOptions {
-  int samples = 4'096;  ///< of each of the two references, whose seeds are 1 and 2
+  int samples = 4'096;  ///< of each of the two references, with seeds of their own
   int threads = 0;
 };
 /// Throws SceneError where the image was not rendered from this scene.

@@ -127,7 +127,7 @@ TEST_F(CommandTest, CompareToSceneFindsTheNoiseOfFewSamples) {
       fine({"compare", path("r.exr"), scene_, "--samples", "1024", "--json", "--picture", path("p.png")})
           .out);
   const double rmse = report["penumbra"]["rmse"].get<double>();
-  EXPECT_GT(rmse, 0.005);  // design: .017 for 64 stratified rays
+  EXPECT_GT(rmse, 0.005);  // 64 stratified rays reach about .017
   EXPECT_LT(rmse, 0.03);
   EXPECT_LE(report["penumbra"]["rmse_low"].get<double>(), rmse);
   EXPECT_GE(report["penumbra"]["rmse_high"].get<double>(), rmse);
