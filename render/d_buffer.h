@@ -3,9 +3,10 @@
 // In: caster meshes (uploaded once), surface points (uploaded once per camera), a light. Out: visibility per
 // pixel. "Umbra and penumbra volumes" (2004), sections 3 and 4. There a texel stores the distances |cxo|,
 // |cxuv|, |cxpv| and |cxs|; here it stores the occluder's face and depth and *which edge* bounds the penumbra
-// on that line of sight, so that the chord it leaves of the disk is exact for the receiver (no eq. 2 and 3; the distances are an option),
-// and the neighbouring edge at a corner is known. Facets are drawn in (1/z)-linear depth and dilated by a
-// texel, so that no texel that touches the penumbra is empty.
+// on that line of sight, so that the chord it leaves of the disk is exact for the receiver (no eq. 2 and 3;
+// the distances are an option), and the neighbouring edge at a corner is known. Facets are drawn in
+// (1/z)-linear depth and dilated by a texel, so that no texel that touches the penumbra is empty (towards the
+// border of a hemicube's side by less than one).
 #pragma once
 
 #include <memory>
