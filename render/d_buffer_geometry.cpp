@@ -134,7 +134,7 @@ class Appender {
   /// A hemicube's texel covers more of (u, v) towards the horizon: 1 + |uv| times as much across, and more
   /// along the radius; the smaller factor is taken, since too wide a facet hides its neighbours.
   double dilation(const glm::dvec2& uv) const {
-    return options_.dilation * (options_.grows_outwards ? 1.0 + glm::length(uv) : 1.0);
+    return options_.dilation * (options_.grows_with_uv ? 1.0 + glm::length(uv) : 1.0);
   }
 
   /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest

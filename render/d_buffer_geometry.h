@@ -50,11 +50,10 @@ struct EntrySource {
 };
 
 struct EntryGeometryOptions {
-  double near_depth;  ///< edges are cut at this depth
-  double far_weight;  ///< 1/z of the farthest receiver: facets end there
-  double dilation;  ///< in (u, v): facets grow by this to all sides, so that every texel they touch is drawn
-  bool
-      grows_outwards;  ///< the dilation is that of (0, 0), and grows by 1 + |uv| as the texels of a hemicube do
+  double near_depth;   ///< edges are cut at this depth
+  double far_weight;   ///< 1/z of the farthest receiver: facets end there
+  double dilation;     ///< in (u, v): facets grow by this to all sides, to reach every texel they touch
+  bool grows_with_uv;  ///< times 1 + |uv|, as the texels of a hemicube do
 };
 
 /// Adds one caster. Cost O(facets + cone segments).
