@@ -67,7 +67,8 @@ class SheetExtruder {
     add_triangle({near(from), far_to, far_from}, outward, tag);
   }
 
-  /// Facets and cones that meet along a ray share its far point. From a point light there is one ray a vertex.
+  /// Facets and cones that meet along a ray share its far point. From a point light there is one ray a
+  /// vertex.
   std::uint32_t far_end(std::uint32_t vertex, double angle, SupportKind kind) {
     if (reach_.radius == 0.0) angle = 0.0;
     const auto [at, is_new] = far_ends_.try_emplace({vertex, kind, angle}, 0u);
