@@ -5,16 +5,16 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "render/unit_vector.h"
+#include "volumes/detail/vectors.h"
 
 namespace penumbra {
 
-using detail::unit_vector;
+using detail::unit;
 
 PixelRays::PixelRays(const Camera& camera, int width, int height) : origin(camera.eye) {
   assert(width > 0 && height > 0);
-  const Vec3 forward = unit_vector(camera.target - camera.eye);
-  const Vec3 right = unit_vector(glm::cross(forward, unit_vector(camera.up)));
+  const Vec3 forward = unit(camera.target - camera.eye);
+  const Vec3 right = unit(glm::cross(forward, unit(camera.up)));
   const Vec3 up = glm::cross(right, forward);
   // The image plane at distance 1: its height follows from the field of view, its width from square pixels.
   const double half_height = std::tan(camera.fov_y_degrees * std::numbers::pi / 360.0);

@@ -7,7 +7,7 @@
 #include "render/scene_mesh.h"
 #include "render/scene_node.h"
 #include "render/transform.h"
-#include "render/unit_vector.h"
+#include "volumes/detail/vectors.h"
 
 namespace penumbra {
 namespace {
@@ -52,7 +52,7 @@ void read_light(const SceneNode& node, Scene& scene) {
 
 // Sine of the angle between two vectors of any length; 0 where one of them is 0.
 double sine_between(const Vec3& a, const Vec3& b) {
-  return glm::length(glm::cross(detail::unit_vector(a), detail::unit_vector(b)));
+  return glm::length(glm::cross(detail::unit(a), detail::unit(b)));
 }
 
 Camera read_camera(const SceneNode& node) {

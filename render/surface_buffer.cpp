@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/ray_scene_impl.h"
+#include "volumes/detail/vectors.h"
 
 namespace penumbra {
 namespace {
@@ -47,7 +48,7 @@ void place(const Scene& scene, const PixelRays& pixels, int x, int y, std::size_
   const IndexedTriangle& t = mesh.triangles()[out.face[pixel]];
   const auto points = mesh.positions();
   const Vec3 a = points[t[0]];
-  Vec3 normal = glm::normalize(glm::cross(points[t[1]] - a, points[t[2]] - a));
+  Vec3 normal = detail::unit(glm::cross(points[t[1]] - a, points[t[2]] - a));
   const Vec3 direction = pixels.direction(x + 0.5, y + 0.5);
   const double slope = glm::dot(normal, direction);
   const double traced = embree_distance / (scale * glm::length(direction));

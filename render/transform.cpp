@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/unit_vector.h"
+#include "volumes/detail/vectors.h"
 
 namespace penumbra::detail {
 namespace {
@@ -44,7 +44,7 @@ std::array<Vec3, 3> read_rotation(const SceneNode& node) {
 }  // namespace
 
 double Transform::relative_determinant() const {
-  return glm::dot(glm::cross(unit_vector(columns[0]), unit_vector(columns[1])), unit_vector(columns[2]));
+  return glm::dot(glm::cross(unit(columns[0]), unit(columns[1])), unit(columns[2]));
 }
 
 Transform read_transform(const SceneNode& object) {

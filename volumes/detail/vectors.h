@@ -20,9 +20,9 @@ inline Vec3 scaled_to_one(const Vec3& v) {
   return largest > 0.0 ? Vec3(v.x / largest, v.y / largest, v.z / largest) : v;
 }
 
-/// Unit vector along v ≠ 0, at any scale.
+/// Unit vector along v, at any scale. The zero vector stays.
 inline Vec3 unit(const Vec3& v) {
-  return glm::normalize(scaled_to_one(v));
+  return largest_component(v) > 0.0 ? glm::normalize(scaled_to_one(v)) : v;
 }
 
 /// A unit vector perpendicular to the unit vector w: by the axis that w leans to least.
