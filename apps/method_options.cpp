@@ -57,6 +57,9 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
   add_choice(command, "--conflict", options.conflict, conflicts(),
              "Which of several entries on a line of sight is kept")
       ->group(group);
+  add_choice(command, "--dbuffer-center", options.center, center_tests(),
+             "How it is told whether the light's center is hidden: by a ray, or by the texel's first surface")
+      ->group(group);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "mesh/error.h"
 #include "mesh/vertex_rings.h"
+#include "render/center_rays.h"
 #include "render/d_buffer_passes.h"
 #include "render/ray_scene.h"
 #include "volumes/volumes.h"
@@ -59,6 +60,8 @@ struct DBuffer::Impl {
   UvWindow caster_window(const detail::LightSpace& space, double far_weight) const;
   double far_weight(const detail::LightSpace& space) const;
   void draw(const Plan& plan, const DBufferOptions& options, StageClock& clock);
+  void find_hidden_center(const Plan& plan, const DiskLight& light, const DBufferOptions& options);
+  void shade_pixels(const gl::Program& program, const Plan& plan, const DBufferOptions& options);
   std::vector<float> shade(const Plan& plan, const DBufferOptions& options);
   void set_uniforms(const gl::Program& program, const Plan& plan, const DBufferOptions& options) const;
   void bind_textures(const gl::Program& program) const;
@@ -72,12 +75,13 @@ struct DBuffer::Impl {
   std::vector<Caster> casters;
 
   detail::DBufferPasses passes;
-  gl::Program select_program, visibility_program;
+  gl::Program center_program, select_program, visibility_program;
   Object empty_array, framebuffer;
   std::unique_ptr<detail::DBufferLayers> layers;
 
   int width = 0, height = 0;
-  std::unique_ptr<Object> surface_position, surface_normal, visibility_texture, mark_texture;
+  std::unique_ptr<Object> surface_position, surface_normal, hidden_texture, visibility_texture, mark_texture;
+  std::unique_ptr<CenterRays> center_rays;
 };
 
 DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_)
@@ -87,6 +91,8 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
       rays(rays_),
       scale(rays_.frame().scale),
       passes(gl),
+      center_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
+                          {GL_FRAGMENT_SHADER, "d_buffer_center.frag.glsl"}}),
       select_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
                           {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}}),
       visibility_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
@@ -147,6 +153,8 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
   surface_normal = make(GL_RGBA32F, normals.data());
   visibility_texture = make(GL_R32F, nullptr);
   mark_texture = make(GL_DEPTH_COMPONENT32F, nullptr);
+  hidden_texture = make(GL_R8UI, nullptr);
+  center_rays = std::make_unique<CenterRays>(surface, rays);
   gl::require_no_error(gl, "uploading the surface buffer");
 }
 
@@ -261,7 +269,7 @@ void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageC
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  passes.draw_occluders(plan.targets, plan.axes, plan.offset, *layers);
+  passes.draw_occluders(plan.targets, plan.axes, plan.offset, *layers, options);
   gl.Finish();
   clock.finish("occluders");
   passes.draw_entries(plan.targets, *layers, options);
@@ -302,6 +310,7 @@ void DBuffer::Impl::bind_textures(const gl::Program& program) const {
   const Binding bindings[] = {
       {"surface_position", GL_TEXTURE_2D, *surface_position},
       {"surface_normal", GL_TEXTURE_2D, *surface_normal},
+      {"center_hidden", GL_TEXTURE_2D, *hidden_texture},
       {"occluder_face", kArray, l.occluder.id.texture},
       {"occluder_depth", kArray, l.occluder.depth.texture},
       {"last_depth", kArray, l.last.texture},
@@ -328,6 +337,36 @@ void DBuffer::Impl::bind_textures(const gl::Program& program) const {
   gl.ActiveTexture(GL_TEXTURE0);
 }
 
+/// One full-screen triangle, at depth 0.5.
+void DBuffer::Impl::shade_pixels(const gl::Program& program, const Plan& plan,
+                                 const DBufferOptions& options) {
+  program.use();
+  set_uniforms(program, plan, options);
+  bind_textures(program);
+  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// Fills `hidden_texture`: whether the light's center is hidden from each pixel.
+void DBuffer::Impl::find_hidden_center(const Plan& plan, const DiskLight& light,
+                                       const DBufferOptions& options) {
+  if (options.center == CenterTest::kRay) {
+    const std::vector<std::uint8_t> hidden = center_rays->hidden(light);
+    gl.BindTexture(GL_TEXTURE_2D, *hidden_texture);
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_BYTE, hidden.data());
+    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    return;
+  }
+  gl.BindVertexArray(empty_array);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *hidden_texture, 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
+  gl::require_complete_framebuffer(gl, "testing the light's center");
+  gl.Viewport(0, 0, width, height);
+  gl.DepthFunc(GL_ALWAYS);
+  shade_pixels(center_program, plan, options);
+  gl.Finish();
+}
+
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
 /// second.
 std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& options) {
@@ -340,10 +379,7 @@ std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& 
   gl.Viewport(0, 0, width, height);
   for (const gl::Program* program : {&select_program, &visibility_program}) {
     gl.DepthFunc(program == &select_program ? GL_ALWAYS : GL_LESS);  // the triangle's depth is 0.5
-    program->use();
-    set_uniforms(*program, plan, options);
-    bind_textures(*program);
-    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    shade_pixels(*program, plan, options);
   }
   gl.Finish();
   std::vector<float> out(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -362,6 +398,8 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   clock.finish("facets");
   frame.counts = count(plan);
   draw(plan, options, clock);
+  find_hidden_center(plan, light, options);
+  clock.finish("center");
   frame.visibility = shade(plan, options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
@@ -380,6 +418,12 @@ std::span<const NamedValue<VisibilityCurve>> visibility_curves() {
   static constexpr NamedValue<VisibilityCurve> kNames[] = {{VisibilityCurve::kExact, "exact"},
                                                            {VisibilityCurve::kSmoothstep, "smoothstep"},
                                                            {VisibilityCurve::kSquareRoot, "sqrt"}};
+  return kNames;
+}
+
+std::span<const NamedValue<CenterTest>> center_tests() {
+  static constexpr NamedValue<CenterTest> kNames[] = {{CenterTest::kRay, "ray"},
+                                                      {CenterTest::kDepth, "depth"}};
   return kNames;
 }
 

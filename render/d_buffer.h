@@ -31,6 +31,10 @@ enum class VisibilityCurve {
   kSmoothstep,  ///< 3t² - 2t³ (the paper's eq. 4), t = (1 + δ)/2; off by up to 0.039
   kSquareRoot,  ///< √t (the paper's section 6.2, for small occluders)
 };
+enum class CenterTest {
+  kRay,    ///< one ray a pixel: right for every receiver
+  kDepth,  ///< the depth of the first surface in the texel, with a bias in the height above the receiver's plane
+};
 enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps
 
 /// A word of the command line and of --stats, and the value it stands for.
@@ -42,6 +46,7 @@ struct NamedValue {
 std::span<const NamedValue<DBufferContents>> d_buffer_contents();
 std::span<const NamedValue<VisibilityCurve>> visibility_curves();
 std::span<const NamedValue<Conflict>> conflicts();
+std::span<const NamedValue<CenterTest>> center_tests();
 
 template <class Value>
 const char* name_in(std::span<const NamedValue<Value>> names, Value value) {
@@ -56,6 +61,7 @@ struct DBufferOptions {
   int entries = 1;  ///< entries kept per texel and kind of boundary, 1 or 2 (2: kEdge and kNearest only)
   VisibilityCurve curve = VisibilityCurve::kExact;
   Conflict conflict = Conflict::kNearest;
+  CenterTest center = CenterTest::kRay;  ///< how it is told whether the light's center is hidden
 };
 
 struct DBufferFrame {

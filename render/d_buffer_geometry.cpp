@@ -128,7 +128,28 @@ class Appender {
       if (p.z <= options_.near_depth) return;
       corners[k] = project(p);
     }
+    grow(corners);
     for (const Uvw& c : corners) push(out_.umbra, c, first_ + gap.facet, c.w);
+  }
+
+  /// Moves a triangle's sides outward by the dilation; the points of slivers by at most three times as much.
+  void grow(Uvw (&corners)[3]) const {
+    glm::dvec2 out[3];  // of the side from corner k to the next
+    const auto next = [](int k) { return (k + 1) % 3; };
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec2 side = corners[next(k)].uv - corners[k].uv;
+      const double length = glm::length(side);
+      if (!(length > 0.0)) return;
+      out[k] = glm::dvec2(side.y, -side.x) / length;
+    }
+    const glm::dvec2 middle = (corners[0].uv + corners[1].uv + corners[2].uv) / 3.0;
+    const double turn = glm::dot(out[0], corners[0].uv - middle) < 0.0 ? -1.0 : 1.0;
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec2 sum = turn * (out[k] + out[next(next(k))]);
+      const double least = 2.0 / 3.0;  // of |sum|: where the miter is three times the dilation
+      const double size = std::max(glm::length(sum), 1e-9);
+      corners[k].uv += dilation(corners[k].uv) * (size > least ? 2.0 / (size * size) : 3.0 / size) * sum;
+    }
   }
 
   /// A hemicube's texel covers more of (u, v) towards the horizon: 1 + |uv| times as much across, and more

@@ -25,6 +25,12 @@ bool is_in_front(const Bounds& b, const glm::mat3& axes, const glm::vec3& offset
   return true;
 }
 
+/// Whether penumbra entries have to stand a comparison with the first surface. Where rays tell which receivers see the
+/// light's center those lie on or before that surface, so that the nearest entry before them is before it too.
+bool needs_first_surface(const DBufferOptions& options) {
+  return options.center == CenterTest::kDepth || options.conflict == Conflict::kFurthest;
+}
+
 }  // namespace
 
 DBufferPasses::DBufferPasses(const gl::Functions& gl)
@@ -102,7 +108,8 @@ void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, co
 
 /// First surface of all; then the last of those that face the light's center.
 void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes,
-                                   const glm::vec3& offset, const DBufferLayers& layers) {
+                                   const glm::vec3& offset, const DBufferLayers& layers,
+                                   const DBufferOptions& options) {
   occluder_program_.use();
   gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &axes[0][0]);
   gl_.Uniform3f(occluder_program_.uniform("light_offset"), offset.x, offset.y, offset.z);
@@ -111,10 +118,12 @@ void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm
   gl_.CullFace(GL_FRONT);  // targets look along right × up, which turns windings over
   const float farthest = 0.0f, nearest = 1.0f;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    attach(layers.occluder, static_cast<int>(i));
-    gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
-    gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
-    draw_casters(targets[i], axes, offset);
+    if (needs_first_surface(options)) {
+      attach(layers.occluder, static_cast<int>(i));
+      gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
+      gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
+      draw_casters(targets[i], axes, offset);
+    }
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
     gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.last.texture, 0,
                                 static_cast<int>(i));
@@ -130,7 +139,8 @@ void DBufferPasses::draw_entries(const std::vector<Target>& targets, const DBuff
                                  const DBufferOptions& options) {
   gl_.BindVertexArray(entry_array_);
   const Entries penumbra{penumbra_vertices_, penumbra_count_}, umbra{umbra_vertices_, umbra_count_};
-  draw_kind(targets, layers, layers.penumbra, penumbra, Against::kFirst, options);
+  draw_kind(targets, layers, layers.penumbra, penumbra,
+            needs_first_surface(options) ? Against::kFirst : Against::kNothing, options);
   draw_kind(targets, layers, layers.above, umbra, Against::kLast, options);
   draw_kind(targets, layers, layers.below, umbra, Against::kBehindLast, options);
 }
@@ -151,7 +161,8 @@ void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferL
 }
 
 void DBufferPasses::set_filter(const Layers& surface, const Layer* after, Against against) const {
-  gl_.Uniform1i(filtered_program_.uniform("against"), against == Against::kBehindLast ? 2 : 1);
+  gl_.Uniform1i(filtered_program_.uniform("against"),
+                against == Against::kNothing ? 0 : against == Against::kBehindLast ? 2 : 1);
   gl_.Uniform1i(filtered_program_.uniform("peel"), after != nullptr);
   bind(0, GL_TEXTURE_2D_ARRAY, surface.texture);
   bind(1, GL_TEXTURE_2D_ARRAY, after ? after->id.texture : 0);
@@ -171,24 +182,23 @@ void DBufferPasses::draw_layer(const std::vector<Target>& targets, const DBuffer
   const bool furthest = options.conflict == Conflict::kFurthest;
   const Layers& surface = against == Against::kFirst ? layers.occluder.depth : layers.last;
   // Nearest in front of a surface needs no filter: the layer starts with the surface's depth.
-  const bool starts_with_surface = !furthest && !after && against != Against::kBehindLast;
-  const gl::Program& program = starts_with_surface ? entry_program_ : filtered_program_;
+  const bool plain = !furthest && !after && against != Against::kBehindLast;
+  const bool starts_with_surface = plain && against != Against::kNothing;
+  const gl::Program& program = plain ? entry_program_ : filtered_program_;
   program.use();
   gl_.Uniform1i(program.uniform("store_edge_weight"), options.contents == DBufferContents::kDistances);
   if (starts_with_surface)
     gl_.CopyImageSubData(surface.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, into.depth.texture,
                          GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, layers.size, layers.size, layers.count);
-  else
+  else if (!plain)
     set_filter(surface, after, against);
   gl_.DepthFunc(furthest ? GL_LESS : GL_GREATER);
   const float start = furthest ? 1.0f : 0.0f;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     attach(into, static_cast<int>(i));
     gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
-    if (!starts_with_surface) {
-      gl_.ClearBufferfv(GL_DEPTH, 0, &start);
-      gl_.Uniform1i(program.uniform("layer"), static_cast<int>(i));
-    }
+    if (!starts_with_surface) gl_.ClearBufferfv(GL_DEPTH, 0, &start);
+    if (!plain) gl_.Uniform1i(program.uniform("layer"), static_cast<int>(i));
     set_target(program, targets[i]);
     gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(entries.count));
   }

@@ -31,13 +31,13 @@ class DBufferPasses {
   void upload_entries(const EntryGeometry& geometry);
   /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame).
   void draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
-                      const DBufferLayers& layers);
+                      const DBufferLayers& layers, const DBufferOptions& options);
   void draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
                     const DBufferOptions& options);
   GLuint records() const { return record_texture_; }
 
  private:
-  enum class Against { kFirst, kLast, kBehindLast };
+  enum class Against { kNothing, kFirst, kLast, kBehindLast };
   struct Entries {
     const gl::Object& vertices;
     std::size_t count;

@@ -93,6 +93,7 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
                       {"dbuffer_entries", options.d_buffer.entries},
                       {"visibility", name_in(visibility_curves(), options.d_buffer.curve)},
                       {"conflict", name_in(conflicts(), options.d_buffer.conflict)},
+                      {"center", name_in(center_tests(), options.d_buffer.center)},
                       {"backend", gl::name_of(options.backend)}};
   return std::move(frame.visibility);
 }

@@ -47,7 +47,7 @@ struct SideOfPlane {
 /// Rounding in `SideOfPlane::at`, so that coplanar neighbours count as lying on the plane.
 constexpr double kOnPlane = 1e-11;
 
-constexpr double kSharpestTurn = 0.93 * kPi;
+constexpr double kSharpestTurn = 0.7 * kPi;
 
 /// Which kind of facet a tangent plane carries, by the sides of the one or two opposite vertices (positive:
 /// the disk's). An edge between coplanar faces carries none.

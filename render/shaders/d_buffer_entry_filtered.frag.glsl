@@ -3,7 +3,7 @@
 
 uniform bool store_edge_weight;
 uniform int layer;
-uniform int against;                 // 1: in front of the surface; 2: behind it
+uniform int against;                 // 0: no comparison; 1: in front of the surface; 2: behind it
 uniform sampler2DArray surface_depth;
 uniform bool peel;                   // keep only what comes after the first entries, by depth, then by number
 uniform usampler2DArray first_entry;
@@ -31,7 +31,7 @@ bool comes_after_first(ivec3 at) {
 void main() {
   ivec3 at = ivec3(gl_FragCoord.xy, layer);
   float surface = texelFetch(surface_depth, at, 0).r;
-  if (against == 1 ? gl_FragCoord.z <= surface : gl_FragCoord.z > surface) discard;
+  if (against == 1 && gl_FragCoord.z <= surface || against == 2 && gl_FragCoord.z > surface) discard;
   if (peel && !comes_after_first(at)) discard;
   entry = store_edge_weight ? floatBitsToUint(entry_edge_weight) : entry_facet + 1u;
 }

@@ -7,6 +7,7 @@ const float kOnPlane = 1e-5;   // heights above the receiver that float cannot t
 
 uniform sampler2D surface_position;   // scene frame; the fourth number is 1 + the face's number, 0: nothing seen
 uniform sampler2D surface_normal;     // world, unit, towards the viewer
+uniform usampler2D center_hidden;     // 1 where the light's center is hidden
 uniform usampler2DArray occluder_face;    // the first surface
 uniform sampler2DArray occluder_depth;
 uniform sampler2DArray last_depth;        // the last surface that faces the light's center
@@ -83,13 +84,6 @@ float weight_of(float depth, Texel t) { return depth / (near_depth * t.direction
 bool is_above(float weight, Receiver r, Texel t) {
   float forward = 1.0 / (weight * t.direction.z);
   return weight > r.weight && dot(r.n, t.direction * forward - r.x) > kBias * t.size * forward;
-}
-
-// Whether the receiver's line to the light's center is cut. With the center below the horizon its texel says nothing.
-bool is_hidden(Receiver r, Texel t) {
-  if (dot(r.n, r.x) >= 0.0) return false;
-  uint face = texelFetch(occluder_face, t.at, 0).r;
-  return face != kEmpty && face != r.face && is_above(weight_of(texelFetch(occluder_depth, t.at, 0).r, t), r, t);
 }
 
 struct Entry {

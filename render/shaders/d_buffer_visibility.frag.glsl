@@ -12,6 +12,7 @@ float curve_of(float delta) {
   return curve == kSmoothstep ? t * t * (3.0 - 2.0 * t) : curve == kSquareRoot ? sqrt(t) : half_plane_area(delta);
 }
 
+const float kBlunt = 0.7;  // cosine of the turn below which a corner counts as part of a smooth chain
 const Chord kWholeDisk = Chord(vec2(1.0, 0.0), 1.0);
 
 Chord opposite(Chord c) { return Chord(-c.normal, -c.delta); }
@@ -24,6 +25,7 @@ struct Corner {
   bool there;
   Chord chord;  // of the neighbouring edge
   bool convex;  // the caster hides what both edges hide; else what either does
+  bool inside;  // the disk
 };
 
 Corner nearer_corner(uint facet, vec3 a, vec3 b, vec3 plane, vec3 x) {
@@ -31,8 +33,12 @@ Corner nearer_corner(uint facet, vec3 a, vec3 b, vec3 plane, vec3 x) {
   bool at_a = dot(pa, pa) < dot(pb, pb);
   vec4 far = texelFetch(records, int(4u * facet) + (at_a ? 0 : 3));
   Chord chord = chord_of_plane(at_a ? edge_plane(x, far.xyz, a) : edge_plane(x, b, far.xyz), x, radius);
-  return Corner(far.w > 0.5, chord, dot(plane, far.xyz - x) < 0.0);
+  float apart = min(dot(pa, pa), dot(pb, pb));
+  return Corner(far.w > 0.5, chord, dot(plane, far.xyz - x) < 0.0, apart < radius * radius);
 }
+
+// The side of a chord that the disk's center is known to be on: a chord that contradicts it is moved to the center.
+float agreeing(float delta, bool hidden) { return hidden ? min(delta, 0.0) : max(delta, 0.0); }
 
 struct Share {
   float visibility;  // -1: the entry says nothing about this receiver
@@ -40,7 +46,7 @@ struct Share {
 };
 
 // Visibility by one edge, and its neighbour at the nearer corner or the horizon.
-Share share_of_facet(uint facet, Receiver r, Chord horizon) {
+Share share_of_facet(uint facet, bool hidden, Receiver r, Chord horizon) {
   int first = int(4u * facet);
   vec3 a = texelFetch(records, first + 1).xyz, b = texelFetch(records, first + 2).xyz;
   vec3 plane = edge_plane(r.x, a, b);
@@ -50,10 +56,17 @@ Share share_of_facet(uint facet, Receiver r, Chord horizon) {
   if (curve != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord);
   Corner corner = nearer_corner(facet, a, b, plane, r.x);
   bool cut_by_horizon = horizon.delta < 1.0;
+  // Of what both edges hide, either may leave the center lit; of what either hides, either may hide it.
+  bool explained = corner.there && corner.convex != hidden && (corner.chord.delta < 0.0) == hidden;
+  if (!explained) chord.delta = agreeing(chord.delta, hidden);
+  if (corner.convex == hidden) corner.chord.delta = agreeing(corner.chord.delta, hidden);
   bool convex = corner.there && corner.convex && !cut_by_horizon;
   Chord other = cut_by_horizon ? horizon : corner.there ? corner.chord : kWholeDisk;
   float area = convex ? two_half_planes_area(opposite(chord), opposite(other)) : two_half_planes_area(chord, other);
-  return Share(convex ? 1.0 - area : area, chord);
+  // Round a hidden center only the point of a wedge in front of the disk leaves more than half of it lit.
+  bool pointed = convex && corner.inside && dot(chord.normal, other.normal) < kBlunt;
+  float most = hidden && !pointed ? 0.5 : 1.0;
+  return Share(min(convex ? 1.0 - area : area, most), chord);
 }
 
 // The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the same
@@ -65,11 +78,11 @@ Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk);
 }
 
-Share share_of(Entry e, Receiver r, Texel t, Chord horizon) {
+Share share_of(Entry e, bool hidden, Receiver r, Texel t, Chord horizon) {
   if (contents == kDistances) return share_of_distances(e, r, horizon);
   // What a texel's width is worth on a boundary's slope of 1/radius in (x/z, y/z).
   float slack = t.size * dot(t.direction, t.direction) / (t.direction.z * t.direction.z * radius);
-  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, r, horizon) : Share(-1.0, kWholeDisk);
+  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, r, horizon) : Share(-1.0, kWholeDisk);
 }
 
 // Two penumbra entries are two occluders: hidden is what either hides. Two umbra entries are two sides of one occluder:
@@ -85,14 +98,14 @@ void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
   Chord horizon = chord_of_plane(r.n, r.x, radius);
   Texel t = texel_of(r.x);
-  bool hidden = is_hidden(r, t);
+  bool hidden = texelFetch(center_hidden, ivec2(gl_FragCoord.xy), 0).r != 0u;
   Share first = Share(-1.0, kWholeDisk), second = first;
   bool umbra = false;
   int count = two_entries && horizon.delta >= 1.0 ? 2 : 1;
   for (int k = 0; k < count; ++k) {  // a loop, since one copy of the body is faster than two
     Entry e = entry_at(k, hidden, r, t);
     if (e.content == kEmpty) continue;
-    Share s = share_of(e, r, t, horizon);
+    Share s = share_of(e, hidden, r, t, horizon);
     if (first.visibility < 0.0) {
       first = s;
       umbra = e.umbra;

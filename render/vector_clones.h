@@ -1,0 +1,8 @@
+// Loops over lanes are compiled for several instruction sets; which one runs is chosen when the program starts.
+#pragma once
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PENUMBRA_VECTOR_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#else
+#define PENUMBRA_VECTOR_CLONES
+#endif
