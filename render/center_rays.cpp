@@ -13,6 +13,8 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kLanes = 16;
+/// What a cut reads as that only the ray towards the light finds: the two directions round differently.
+constexpr float kAlmostThere = 1.0f - 0x1p-20f;
 
 /// Sixteen receivers, local frame.
 struct Receivers {
@@ -47,6 +49,40 @@ void aim(const Receivers& from, const LocalDisk& disk, RTCRay16& packet, int* wa
   }
 }
 
+/// Sixteen rays, first from receivers to see whether anything is in the way, then back for what the light
+/// meets first.
+struct Packet {
+  alignas(64) RTCRayHit16 hits{};
+  alignas(64) int wanted[kLanes];
+  RTCIntersectContext context;
+
+  Packet() {
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+
+  /// Leaves in `wanted` the lanes that are cut, and where in the ray's tfar: 0 at the light, 1 at the
+  /// receiver.
+  void find_first_cuts(const Receivers& from, RTCScene casters) {
+    RTCRay16& ray = hits.ray;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      ray.org_x[k] = from.x[k], ray.org_y[k] = from.y[k], ray.org_z[k] = from.z[k];
+      ray.tnear[k] = 0.0f, ray.tfar[k] = 1.0f, ray.mask[k] = ~0u;
+    }
+    rtcOccluded16(wanted, casters, &context, &ray);
+    bool any = false;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      wanted[k] = wanted[k] && ray.tfar[k] < 0.0f ? -1 : 0;  // Embree sets it to -infinity at a hit
+      any = any || wanted[k];
+      ray.org_x[k] += ray.dir_x[k], ray.org_y[k] += ray.dir_y[k], ray.org_z[k] += ray.dir_z[k];
+      ray.dir_x[k] = -ray.dir_x[k], ray.dir_y[k] = -ray.dir_y[k], ray.dir_z[k] = -ray.dir_z[k];
+      ray.tfar[k] = kAlmostThere;
+      hits.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
+    }
+    if (any) rtcIntersect16(wanted, casters, &context, &hits);
+  }
+};
+
 }  // namespace
 
 CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
@@ -67,34 +103,31 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
   }
 }
 
-std::vector<std::uint8_t> CenterRays::hidden(const DiskLight& light) const {
-  std::vector<std::uint8_t> out(pixels_, 0);
+std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
+  std::vector<float> out(pixels_, 1.0f);
   const RayFrame& frame = rays_.frame();
   const glm::vec3 center(frame.to_local(light.center)), normal(light_frame(light).w);
-  const LocalDisk disk{center.x, center.y, center.z, normal.x,
-                       normal.y, normal.z, static_cast<float>(light.radius * frame.scale)};
+  const LocalDisk disk{center.x,
+                       center.y,
+                       center.z,
+                       normal.x,
+                       normal.y,
+                       normal.z,
+                       static_cast<float>(light.radius * frame.scale)};
   const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
-    alignas(64) RTCRay16 packet{};
-    alignas(64) int wanted[kLanes];
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    Packet packet;
     for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
       const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
-      aim({&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]}, disk, packet, wanted);
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        if (k >= count) wanted[k] = 0;
-        packet.org_x[k] = x_[first + k], packet.org_y[k] = y_[first + k], packet.org_z[k] = z_[first + k];
-        packet.tnear[k] = 0.0f, packet.tfar[k] = 1.0f, packet.mask[k] = ~0u;
-      }
-      rtcOccluded16(wanted, rays_.impl().casters, &context, &packet);
+      const Receivers from{&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
+      aim(from, disk, packet.hits.ray, packet.wanted);
+      for (std::size_t k = count; k < kLanes; ++k) packet.wanted[k] = 0;
+      packet.find_first_cuts(from, rays_.impl().casters);
       for (std::size_t k = 0; k < count; ++k)
-        out[pixel_[first + k]] = wanted[k] && packet.tfar[k] < 0.0f;  // Embree sets it to -infinity at a hit
+        if (packet.wanted[k]) out[pixel_[first + k]] = packet.hits.ray.tfar[k];
     }
   };
-  rays_.impl().arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 64), trace);
-  });
+  rays_.impl().arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 64), trace); });
   return out;
 }
 

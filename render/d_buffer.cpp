@@ -60,7 +60,7 @@ struct DBuffer::Impl {
   UvWindow caster_window(const detail::LightSpace& space, double far_weight) const;
   double far_weight(const detail::LightSpace& space) const;
   void draw(const Plan& plan, const DBufferOptions& options, StageClock& clock);
-  void find_hidden_center(const Plan& plan, const DiskLight& light, const DBufferOptions& options);
+  void find_first_cut(const Plan& plan, const DiskLight& light, const DBufferOptions& options);
   void shade_pixels(const gl::Program& program, const Plan& plan, const DBufferOptions& options);
   std::vector<float> shade(const Plan& plan, const DBufferOptions& options);
   void set_uniforms(const gl::Program& program, const Plan& plan, const DBufferOptions& options) const;
@@ -80,7 +80,7 @@ struct DBuffer::Impl {
   std::unique_ptr<detail::DBufferLayers> layers;
 
   int width = 0, height = 0;
-  std::unique_ptr<Object> surface_position, surface_normal, hidden_texture, visibility_texture, mark_texture;
+  std::unique_ptr<Object> surface_position, surface_normal, first_cut, visibility_texture, mark_texture;
   std::unique_ptr<CenterRays> center_rays;
 };
 
@@ -153,7 +153,7 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
   surface_normal = make(GL_RGBA32F, normals.data());
   visibility_texture = make(GL_R32F, nullptr);
   mark_texture = make(GL_DEPTH_COMPONENT32F, nullptr);
-  hidden_texture = make(GL_R8UI, nullptr);
+  first_cut = make(GL_R32F, nullptr);
   center_rays = std::make_unique<CenterRays>(surface, rays);
   gl::require_no_error(gl, "uploading the surface buffer");
 }
@@ -310,7 +310,7 @@ void DBuffer::Impl::bind_textures(const gl::Program& program) const {
   const Binding bindings[] = {
       {"surface_position", GL_TEXTURE_2D, *surface_position},
       {"surface_normal", GL_TEXTURE_2D, *surface_normal},
-      {"center_hidden", GL_TEXTURE_2D, *hidden_texture},
+      {"first_cut", GL_TEXTURE_2D, *first_cut},
       {"occluder_face", kArray, l.occluder.id.texture},
       {"occluder_depth", kArray, l.occluder.depth.texture},
       {"last_depth", kArray, l.last.texture},
@@ -346,19 +346,16 @@ void DBuffer::Impl::shade_pixels(const gl::Program& program, const Plan& plan,
   gl.DrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-/// Fills `hidden_texture`: whether the light's center is hidden from each pixel.
-void DBuffer::Impl::find_hidden_center(const Plan& plan, const DiskLight& light,
-                                       const DBufferOptions& options) {
+/// Fills `first_cut`: where the line from the light's center to each receiver is cut first.
+void DBuffer::Impl::find_first_cut(const Plan& plan, const DiskLight& light, const DBufferOptions& options) {
   if (options.center == CenterTest::kRay) {
-    const std::vector<std::uint8_t> hidden = center_rays->hidden(light);
-    gl.BindTexture(GL_TEXTURE_2D, *hidden_texture);
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED_INTEGER, GL_UNSIGNED_BYTE, hidden.data());
-    gl.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    const std::vector<float> cut = center_rays->first_cut(light);
+    gl.BindTexture(GL_TEXTURE_2D, *first_cut);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, cut.data());
     return;
   }
   gl.BindVertexArray(empty_array);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *hidden_texture, 0);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *first_cut, 0);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
   gl::require_complete_framebuffer(gl, "testing the light's center");
   gl.Viewport(0, 0, width, height);
@@ -398,7 +395,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   clock.finish("facets");
   frame.counts = count(plan);
   draw(plan, options, clock);
-  find_hidden_center(plan, light, options);
+  find_first_cut(plan, light, options);
   clock.finish("center");
   frame.visibility = shade(plan, options);
   clock.finish("visibility");

@@ -33,7 +33,8 @@ enum class VisibilityCurve {
 };
 enum class CenterTest {
   kRay,    ///< one ray a pixel: right for every receiver
-  kDepth,  ///< the depth of the first surface in the texel, with a bias in the height above the receiver's plane
+  kDepth,  ///< the depth of the first surface in the texel, with a bias in the height above the receiver's
+           ///< plane
 };
 enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps
 

@@ -25,8 +25,9 @@ bool is_in_front(const Bounds& b, const glm::mat3& axes, const glm::vec3& offset
   return true;
 }
 
-/// Whether penumbra entries have to stand a comparison with the first surface. Where rays tell which receivers see the
-/// light's center those lie on or before that surface, so that the nearest entry before them is before it too.
+/// Whether penumbra entries have to stand a comparison with the first surface. Where rays tell which
+/// receivers see the light's center those lie on or before that surface, so that the nearest entry before
+/// them is before it too.
 bool needs_first_surface(const DBufferOptions& options) {
   return options.center == CenterTest::kDepth || options.conflict == Conflict::kFurthest;
 }
@@ -161,8 +162,9 @@ void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferL
 }
 
 void DBufferPasses::set_filter(const Layers& surface, const Layer* after, Against against) const {
-  gl_.Uniform1i(filtered_program_.uniform("against"),
-                against == Against::kNothing ? 0 : against == Against::kBehindLast ? 2 : 1);
+  gl_.Uniform1i(filtered_program_.uniform("against"), against == Against::kNothing      ? 0
+                                                      : against == Against::kBehindLast ? 2
+                                                                                        : 1);
   gl_.Uniform1i(filtered_program_.uniform("peel"), after != nullptr);
   bind(0, GL_TEXTURE_2D_ARRAY, surface.texture);
   bind(1, GL_TEXTURE_2D_ARRAY, after ? after->id.texture : 0);

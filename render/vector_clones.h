@@ -1,4 +1,5 @@
-// Loops over lanes are compiled for several instruction sets; which one runs is chosen when the program starts.
+// Loops over lanes are compiled for several instruction sets; which one runs is chosen when the program
+// starts.
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)

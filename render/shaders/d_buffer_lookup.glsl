@@ -7,7 +7,7 @@ const float kOnPlane = 1e-5;   // heights above the receiver that float cannot t
 
 uniform sampler2D surface_position;   // scene frame; the fourth number is 1 + the face's number, 0: nothing seen
 uniform sampler2D surface_normal;     // world, unit, towards the viewer
-uniform usampler2D center_hidden;     // 1 where the light's center is hidden
+uniform sampler2D first_cut;          // which part of the way from the light's center to the receiver is free; 1: all
 uniform usampler2DArray occluder_face;    // the first surface
 uniform sampler2DArray occluder_depth;
 uniform sampler2DArray last_depth;        // the last surface that faces the light's center
@@ -46,6 +46,7 @@ struct Receiver {
   vec3 n;        // normal towards the viewer
   uint face;     // 1 + number
   float weight;  // 1/z
+  float cut;     // which part of the way from the light's center is free; 1: the center is seen
 };
 
 struct Texel {
@@ -116,5 +117,6 @@ Receiver receiver_at(ivec2 pixel) {
   r.x = light_axes * p.xyz + light_offset;
   r.n = light_axes * texelFetch(surface_normal, pixel, 0).xyz;
   r.weight = 1.0 / r.x.z;
+  r.cut = texelFetch(first_cut, pixel, 0).r;
   return r;
 }

@@ -10,7 +10,7 @@ void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
   Texel t = texel_of(r.x);
   float open = half_plane_area(chord_of_plane(r.n, r.x, radius).delta);
-  bool hidden = texelFetch(center_hidden, ivec2(gl_FragCoord.xy), 0).r != 0u;
+  bool hidden = r.cut < 1.0;
   bool open_to_entries = r.face != 0u && r.x.z > 0.0 && open > 0.0 && t.at.z >= 0;
   bool applies = open_to_entries && entry_at(0, hidden, r, t).content != kEmpty;
   visibility = r.face == 0u ? 1.0 : r.x.z <= 0.0 ? 0.0 : open_to_entries && hidden ? 0.0 : open;

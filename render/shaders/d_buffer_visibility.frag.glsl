@@ -12,7 +12,7 @@ float curve_of(float delta) {
   return curve == kSmoothstep ? t * t * (3.0 - 2.0 * t) : curve == kSquareRoot ? sqrt(t) : half_plane_area(delta);
 }
 
-const float kBlunt = 0.7;  // cosine of the turn below which a corner counts as part of a smooth chain
+const float kBlunt = 0.5;  // cosine of the turn below which a corner counts as part of a smooth chain
 const Chord kWholeDisk = Chord(vec2(1.0, 0.0), 1.0);
 
 Chord opposite(Chord c) { return Chord(-c.normal, -c.delta); }
@@ -46,7 +46,7 @@ struct Share {
 };
 
 // Visibility by one edge, and its neighbour at the nearer corner or the horizon.
-Share share_of_facet(uint facet, bool hidden, Receiver r, Chord horizon) {
+Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord horizon) {
   int first = int(4u * facet);
   vec3 a = texelFetch(records, first + 1).xyz, b = texelFetch(records, first + 2).xyz;
   vec3 plane = edge_plane(r.x, a, b);
@@ -65,8 +65,14 @@ Share share_of_facet(uint facet, bool hidden, Receiver r, Chord horizon) {
   float area = convex ? two_half_planes_area(opposite(chord), opposite(other)) : two_half_planes_area(chord, other);
   // Round a hidden center only the point of a wedge in front of the disk leaves more than half of it lit.
   bool pointed = convex && corner.inside && dot(chord.normal, other.normal) < kBlunt;
-  float most = hidden && !pointed ? 0.5 : 1.0;
+  float most = hidden && !(pointed && !overlapped) ? 0.5 : 1.0;
   return Share(min(convex ? 1.0 - area : area, most), chord);
+}
+
+// Whether the surface that the light's center sees in this direction is not the last one before the receiver.
+bool is_overlapped(Receiver r, Texel t) {
+  float first = r.weight / r.cut, last = weight_of(texelFetch(last_depth, t.at, 0).r, t);
+  return first > 1.02 * last;
 }
 
 // The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the same
@@ -82,7 +88,7 @@ Share share_of(Entry e, bool hidden, Receiver r, Texel t, Chord horizon) {
   if (contents == kDistances) return share_of_distances(e, r, horizon);
   // What a texel's width is worth on a boundary's slope of 1/radius in (x/z, y/z).
   float slack = t.size * dot(t.direction, t.direction) / (t.direction.z * t.direction.z * radius);
-  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, r, horizon) : Share(-1.0, kWholeDisk);
+  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, is_overlapped(r, t), r, horizon) : Share(-1.0, kWholeDisk);
 }
 
 // Two penumbra entries are two occluders: hidden is what either hides. Two umbra entries are two sides of one occluder:
@@ -98,7 +104,7 @@ void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
   Chord horizon = chord_of_plane(r.n, r.x, radius);
   Texel t = texel_of(r.x);
-  bool hidden = texelFetch(center_hidden, ivec2(gl_FragCoord.xy), 0).r != 0u;
+  bool hidden = r.cut < 1.0;
   Share first = Share(-1.0, kWholeDisk), second = first;
   bool umbra = false;
   int count = two_entries && horizon.delta >= 1.0 ? 2 : 1;

@@ -1,4 +1,5 @@
-// Scenes by chance: a mesh of data/meshes, turned and placed over a floor, a disk light and a camera around it.
+// Scenes by chance: a mesh of data/meshes, turned and placed over a floor, a disk light and a camera around
+// it.
 #pragma once
 
 #include <array>
@@ -18,8 +19,8 @@ struct Pose {
   nlohmann::json scene;
 };
 
-/// A mesh of radius about 1 (half the diagonal of its bounds) whose lowest point is 0 to 0.4 above the floor; the light 3 to
-/// 6 from it, 25° to 90° above the horizon, turned up to 30° away from it; radius 0.02 to 0.8.
+/// A mesh of radius about 1 (half the diagonal of its bounds) whose lowest point is 0 to 0.4 above the floor;
+/// the light 3 to 6 from it, 25° to 90° above the horizon, turned up to 30° away from it; radius 0.02 to 0.8.
 inline Pose random_pose(const std::string& mesh_file, std::uint64_t seed) {
   Random random(seed);
   const auto meshes = std::filesystem::path(PENUMBRA_DATA);
@@ -31,7 +32,8 @@ inline Pose random_pose(const std::string& mesh_file, std::uint64_t seed) {
   const double half = 0.5 * random.uniform(0.0, kPi);
   const glm::dquat turn(std::cos(half), std::sin(half) * axis);
   double lowest = 1e300;
-  for (const Vec3& p : mesh.positions()) lowest = std::min(lowest, (turn * (scale * (p - bounds.center()))).y);
+  for (const Vec3& p : mesh.positions())
+    lowest = std::min(lowest, (turn * (scale * (p - bounds.center()))).y);
   const Vec3 middle{0.0, random.uniform(0.0, 0.4) - lowest, 0.0};
   const auto around = [&](double least, double most, double distance) {
     const double turn_y = random.uniform(0.0, 2.0 * kPi), up = random.uniform(least, most) * kPi / 180.0;
