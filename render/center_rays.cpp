@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
+#include "render/disk_area.h"
 #include "render/ray_scene_impl.h"
 #include "render/vector_clones.h"
 
@@ -101,6 +103,26 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
     nx_[k] = static_cast<float>(n.x), ny_[k] = static_cast<float>(n.y), nz_[k] = static_cast<float>(n.z);
     pixel_.push_back(i);
   }
+}
+
+std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
+  std::vector<float> out(pixels_, 1.0f);
+  const RayFrame& frame = rays_.frame();
+  const glm::vec3 center(frame.to_local(light.center)), m(light_frame(light).w);
+  const auto radius = static_cast<float>(light.radius * frame.scale);
+  rays_.impl().arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixel_.size(), 4096), [&](const auto& range) {
+      for (std::size_t k = range.begin(); k < range.end(); ++k) {
+        const glm::vec3 d = center - glm::vec3(x_[k], y_[k], z_[k]), n(nx_[k], ny_[k], nz_[k]);
+        const float height = glm::dot(n, d), reach = radius * glm::length(n - glm::dot(n, m) * m);
+        const bool lit = glm::dot(d, m) < 0.0f && height > -reach;
+        out[pixel_[k]] = !lit              ? 0.0f
+                         : height >= reach ? 1.0f
+                                           : static_cast<float>(half_plane_area(height / reach));
+      }
+    });
+  });
+  return out;
 }
 
 std::vector<float> CenterRays::first_cut(const DiskLight& light) const {

@@ -23,6 +23,9 @@ class CenterRays {
   /// such that see nothing of it count as open. Cost: one ray a pixel and another where that is cut, on all
   /// cores.
   std::vector<float> first_cut(const DiskLight& light) const;
+  /// One per pixel: the disk's area fraction above the receiver's horizon, 0 behind the light, 1 where
+  /// nothing is seen.
+  std::vector<float> above_horizon(const DiskLight& light) const;
 
  private:
   const RayScene& rays_;

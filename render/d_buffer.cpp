@@ -9,6 +9,7 @@
 #include "mesh/vertex_rings.h"
 #include "render/center_rays.h"
 #include "render/d_buffer_passes.h"
+#include "render/d_buffer_tiles.h"
 #include "render/ray_scene.h"
 #include "volumes/volumes.h"
 
@@ -60,6 +61,7 @@ struct DBuffer::Impl {
   UvWindow caster_window(const detail::LightSpace& space, double far_weight) const;
   double far_weight(const detail::LightSpace& space) const;
   void draw(const Plan& plan, const DBufferOptions& options, StageClock& clock);
+  void choose_tiles(const Plan& plan, const DBufferOptions& options);
   void find_first_cut(const Plan& plan, const DiskLight& light, const DBufferOptions& options);
   void shade_pixels(const gl::Program& program, const Plan& plan, const DBufferOptions& options);
   std::vector<float> shade(const Plan& plan, const DBufferOptions& options);
@@ -76,12 +78,15 @@ struct DBuffer::Impl {
 
   detail::DBufferPasses passes;
   gl::Program center_program, select_program, visibility_program;
-  Object empty_array, framebuffer;
+  Object framebuffer;
   std::unique_ptr<detail::DBufferLayers> layers;
 
   int width = 0, height = 0;
   std::unique_ptr<Object> surface_position, surface_normal, first_cut, visibility_texture, mark_texture;
   std::unique_ptr<CenterRays> center_rays;
+  std::vector<glm::vec4> receivers;  ///< scene frame; the fourth number is 1 + the face's, 0: nothing seen
+  Object tile_array, tile_buffer;
+  GLsizei tile_vertices = 0;
 };
 
 DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_)
@@ -91,14 +96,15 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
       rays(rays_),
       scale(rays_.frame().scale),
       passes(gl),
-      center_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
+      center_program(gl, {{GL_VERTEX_SHADER, "image_tiles.vert.glsl"},
                           {GL_FRAGMENT_SHADER, "d_buffer_center.frag.glsl"}}),
-      select_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
+      select_program(gl, {{GL_VERTEX_SHADER, "image_tiles.vert.glsl"},
                           {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}}),
-      visibility_program(gl, {{GL_VERTEX_SHADER, "full_screen.vert.glsl"},
+      visibility_program(gl, {{GL_VERTEX_SHADER, "image_tiles.vert.glsl"},
                               {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}}),
-      empty_array(gl, Object::Kind::kVertexArray),
-      framebuffer(gl, Object::Kind::kFramebuffer) {
+      framebuffer(gl, Object::Kind::kFramebuffer),
+      tile_array(gl, Object::Kind::kVertexArray),
+      tile_buffer(gl, Object::Kind::kBuffer) {
   const Bounds bounds = scene.caster_bounds();
   origin = bounds.empty() ? scene.light.center : bounds.center();
   std::vector<glm::vec3> points;
@@ -133,7 +139,9 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
   std::vector<std::uint32_t> first_face{0};
   for (const SceneObject& object : scene.objects)
     first_face.push_back(first_face.back() + static_cast<std::uint32_t>(object.mesh.triangles().size()));
-  std::vector<glm::vec4> positions(surface.size(), glm::vec4(0.0f)), normals(surface.size(), glm::vec4(0.0f));
+  std::vector<glm::vec4>& positions = receivers;
+  positions.assign(surface.size(), glm::vec4(0.0f));
+  std::vector<glm::vec4> normals(surface.size(), glm::vec4(0.0f));
   for (std::size_t i = 0; i < surface.size(); ++i) {
     if (!surface.hit(i)) continue;
     const std::uint32_t face = first_face[static_cast<std::size_t>(surface.object[i])] + surface.face[i] + 1;
@@ -337,24 +345,46 @@ void DBuffer::Impl::bind_textures(const gl::Program& program) const {
   gl.ActiveTexture(GL_TEXTURE0);
 }
 
-/// One full-screen triangle, at depth 0.5.
+/// The parts of the image that the shading passes visit, at depth 0.5.
+void DBuffer::Impl::choose_tiles(const Plan& plan, const DBufferOptions& options) {
+  const bool known = options.center == CenterTest::kRay && plan.targets.size() <= 1;
+  std::vector<glm::vec2> tiles;
+  if (!known)
+    tiles = detail::whole_image();
+  else if (!plan.targets.empty())
+    tiles = detail::tiles_with_entries({width, height, receivers, plan.axes, plan.offset}, plan.geometry,
+                                       plan.targets[0]);
+  tile_vertices = static_cast<GLsizei>(tiles.size());
+  gl.BindVertexArray(tile_array);
+  gl.BindBuffer(GL_ARRAY_BUFFER, tile_buffer);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(glm::vec2)), tiles.data(),
+                GL_STREAM_DRAW);
+  gl.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(glm::vec2), nullptr);
+  gl.EnableVertexAttribArray(0);
+}
+
 void DBuffer::Impl::shade_pixels(const gl::Program& program, const Plan& plan,
                                  const DBufferOptions& options) {
   program.use();
   set_uniforms(program, plan, options);
   bind_textures(program);
-  gl.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl.DrawArrays(GL_TRIANGLES, 0, tile_vertices);
 }
 
-/// Fills `first_cut`: where the line from the light's center to each receiver is cut first.
+/// Fills `first_cut`: where the line from the light's center to each receiver is cut first; and visibility as
+/// it is where no entry applies.
 void DBuffer::Impl::find_first_cut(const Plan& plan, const DiskLight& light, const DBufferOptions& options) {
   if (options.center == CenterTest::kRay) {
     const std::vector<float> cut = center_rays->first_cut(light);
     gl.BindTexture(GL_TEXTURE_2D, *first_cut);
     gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, cut.data());
+    std::vector<float> without_entries = center_rays->above_horizon(light);
+    for (std::size_t i = 0; i < cut.size(); ++i)
+      if (cut[i] < 1.0f) without_entries[i] = 0.0f;
+    gl.BindTexture(GL_TEXTURE_2D, *visibility_texture);
+    gl.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, without_entries.data());
     return;
   }
-  gl.BindVertexArray(empty_array);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *first_cut, 0);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
   gl::require_complete_framebuffer(gl, "testing the light's center");
@@ -367,7 +397,6 @@ void DBuffer::Impl::find_first_cut(const Plan& plan, const DiskLight& light, con
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
 /// second.
 std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& options) {
-  gl.BindVertexArray(empty_array);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *visibility_texture, 0);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *mark_texture, 0);
   const GLenum color = GL_COLOR_ATTACHMENT0;
@@ -375,7 +404,7 @@ std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& 
   gl::require_complete_framebuffer(gl, "shading from the D-buffer");
   gl.Viewport(0, 0, width, height);
   for (const gl::Program* program : {&select_program, &visibility_program}) {
-    gl.DepthFunc(program == &select_program ? GL_ALWAYS : GL_LESS);  // the triangle's depth is 0.5
+    gl.DepthFunc(program == &select_program ? GL_ALWAYS : GL_LESS);  // tiles lie at depth 0.5
     shade_pixels(*program, plan, options);
   }
   gl.Finish();
@@ -395,6 +424,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   clock.finish("facets");
   frame.counts = count(plan);
   draw(plan, options, clock);
+  choose_tiles(plan, options);
   find_first_cut(plan, light, options);
   clock.finish("center");
   frame.visibility = shade(plan, options);

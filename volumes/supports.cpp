@@ -59,6 +59,32 @@ std::optional<SupportKind> facet_kind(Sign left, std::optional<Sign> right) {
   return std::nullopt;
 }
 
+/// Grows with the angle of (x, y) from -kHalfTurn to kHalfTurn, opposite directions differ by kHalfTurn, and
+/// no transcendental function is called.
+constexpr double kHalfTurn = 2.0;
+double diamond_angle(double x, double y) {
+  const double size = std::abs(x) + std::abs(y);
+  if (!(size > 0.0)) return 0.0;
+  return x >= 0.0 ? y / size : y >= 0.0 ? 2.0 - y / size : -2.0 - y / size;
+}
+
+/// A vertex and what is around it, in the light's frame.
+struct Star {
+  struct Spoke {
+    Vec3 end, left;
+    std::optional<Vec3> right;  ///< apexes of the faces beside it
+  };
+  Vec3 center{0.0};
+  std::vector<Spoke> spokes;
+};
+
+/// Memory that one thread uses again for every vertex.
+struct Scratch {
+  Star star;
+  std::vector<std::array<double, 2>> wedges;
+  std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> links;
+};
+
 /// An end of a facet at a vertex.
 struct FacetEnd {
   VertexId vertex;
@@ -80,7 +106,7 @@ class Finder {
 
   Supports run(const Silhouettes& silhouettes) {
     find_facets(silhouettes.band);
-    link_vertices();
+    find_corners();
     add_full_cones(silhouettes);
     return std::move(out_);
   }
@@ -140,55 +166,66 @@ class Finder {
     ends_.push_back({e.to, kind, angle, facet, flipped});
   }
 
-  void link_vertices() {
+  /// Links facets and finds cones, vertex by vertex.
+  void find_corners() {
     std::sort(ends_.begin(), ends_.end(), [](const FacetEnd& x, const FacetEnd& y) {
       return std::tie(x.vertex, x.kind, x.angle, x.facet) < std::tie(y.vertex, y.kind, y.angle, y.facet);
     });
+    std::vector<std::span<const FacetEnd>> corners;
     for (std::size_t first = 0; first < ends_.size();) {
       std::size_t last = first;
       while (last < ends_.size() && ends_[last].vertex == ends_[first].vertex &&
              ends_[last].kind == ends_[first].kind)
         ++last;
-      const std::span<const FacetEnd> here(ends_.data() + first, last - first);
-      link_ends(here);
-      if (local(here[0].vertex).z > 0.0) add_cones(here);
+      corners.emplace_back(ends_.data() + first, last - first);
       first = last;
     }
+    // A facet has one end at each vertex, so that no two corners write to the same link.
+    std::vector<std::vector<ConeSector>> cones(corners.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, corners.size(), 256), [&](const auto& range) {
+      Scratch scratch;
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        link_ends(corners[i], scratch);
+        if (local(corners[i][0].vertex).z > 0.0) find_cones(corners[i], scratch, cones[i]);
+      }
+    });
+    for (const auto& found : cones) out_.cones.insert(out_.cones.end(), found.begin(), found.end());
   }
 
   /// Facets that arrive at the vertex go on with facets that leave it, the smallest turns first. Beyond
   /// kSharpestTurn two ends belong to different parts of the contour (the far sides of a saddle), not to one
   /// corner.
-  void link_ends(std::span<const FacetEnd> ends) {
-    links_.clear();
+  void link_ends(std::span<const FacetEnd> ends, Scratch& scratch) {
+    auto& links = scratch.links;
+    links.clear();
     for (const FacetEnd& arriving : ends)
       for (const FacetEnd& leaving : ends) {
         if (arriving.leaves || !leaving.leaves) continue;
         if (out_.facets[arriving.facet].edge == out_.facets[leaving.facet].edge)
           continue;  // both sides of a knife edge
         const double turn = std::abs(std::remainder(leaving.angle - arriving.angle, 2.0 * kPi));
-        if (turn < kSharpestTurn) links_.push_back({turn, arriving.facet, leaving.facet});
+        if (turn < kSharpestTurn) links.push_back({turn, arriving.facet, leaving.facet});
       }
-    std::sort(links_.begin(), links_.end());
-    for (const auto& [turn, arriving, leaving] : links_) {
+    std::sort(links.begin(), links.end());
+    for (const auto& [turn, arriving, leaving] : links) {
       if (out_.facets[arriving].next != kNoFacet || out_.facets[leaving].previous != kNoFacet) continue;
       out_.facets[arriving].next = leaving;
       out_.facets[leaving].previous = arriving;
     }
   }
 
-  void add_cones(std::span<const FacetEnd> ends) {
+  void find_cones(std::span<const FacetEnd> ends, Scratch& scratch, std::vector<ConeSector>& cones) const {
     if (ends.size() < 2) return;
+    find_star(ends[0].vertex, scratch.star);
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const FacetEnd& from = ends[i];
       const FacetEnd& to = ends[(i + 1) % ends.size()];
       const double to_angle = i + 1 < ends.size() ? to.angle : to.angle + 2.0 * kPi;
       if (to_angle <= from.angle) continue;
       const double middle = 0.5 * (from.angle + to_angle);
-      const bool supported = from.kind == SupportKind::kPenumbra ? ring_is_beyond(from.vertex, middle)
-                                                                 : star_covers_disk_side(from.vertex, middle);
-      if (supported)
-        out_.cones.push_back({from.vertex, from.kind, from.angle, to_angle, from.facet, to.facet});
+      const bool supported = from.kind == SupportKind::kPenumbra ? ring_is_beyond(scratch.star, middle)
+                                                                 : star_covers_disk_side(middle, scratch);
+      if (supported) cones.push_back({from.vertex, from.kind, from.angle, to_angle, from.facet, to.facet});
     }
   }
 
@@ -198,64 +235,75 @@ class Finder {
     std::vector<bool> done(mesh_.positions().size(), false);
     for (const FacetEnd& end : ends_)
       if (end.kind == SupportKind::kPenumbra) done[index(end.vertex)] = true;
+    Star star;
     for (EdgeId id : silhouettes.band) {
       const Edge& e = mesh_.edges()[index(id)];
       for (VertexId v : {e.from, e.to}) {
         if (done[index(v)]) continue;
         done[index(v)] = true;
-        if (local(v).z > 0.0 && r_ > 0.0 && ring_is_beyond(v, 0.0))
+        if (!(local(v).z > 0.0) || !(r_ > 0.0)) continue;
+        find_star(v, star);
+        if (ring_is_beyond(star, 0.0))
           out_.cones.push_back({v, SupportKind::kPenumbra, 0.0, 2.0 * kPi, kNoFacet, kNoFacet});
       }
     }
   }
 
-  /// All neighbours of v lie beyond its tangent plane at the angle: nothing of the star hides the disk's
-  /// first point.
-  bool ring_is_beyond(VertexId v, double angle) const {
-    const Vec3 p = local(v);
+  void find_star(VertexId v, Star& star) const {
+    star.center = local(v);
+    star.spokes.clear();
     for (EdgeId id : rings_.edges(v)) {
       const Edge& e = mesh_.edges()[index(id)];
-      if (SideOfPlane(p, local(e.from == v ? e.to : e.from), r_).at(angle) < -kOnPlane) return false;
+      Star::Spoke spoke{local(e.from == v ? e.to : e.from), local(e.left_apex), std::nullopt};
+      if (!e.is_boundary()) spoke.right = local(e.right_apex);
+      star.spokes.push_back(spoke);
     }
-    return true;
   }
 
-  /// Looking from behind v towards the contact, the star of v covers the whole half on the disk's side: the
+  /// All neighbours lie beyond the center's tangent plane at the angle: nothing of the star hides the disk's
+  /// first point.
+  bool ring_is_beyond(const Star& star, double angle) const {
+    return std::none_of(star.spokes.begin(), star.spokes.end(), [&](const Star::Spoke& s) {
+      return SideOfPlane(star.center, s.end, r_).at(angle) < -kOnPlane;
+    });
+  }
+
+  /// Looking from behind the star towards the contact, it covers the whole half on the disk's side: the
   /// corner is reflex, and the first of the light appears at the vertex.
-  bool star_covers_disk_side(VertexId v, double angle) {
-    const Vec3 p = local(v);
+  bool star_covers_disk_side(double angle, Scratch& scratch) const {
+    const Vec3 p = scratch.star.center;
     const Vec3 contact{r_ * std::cos(angle), r_ * std::sin(angle), 0.0};
     const Vec3 beyond{std::cos(angle), std::sin(angle),
                       (r_ - std::cos(angle) * p.x - std::sin(angle) * p.y) / p.z};
     const Vec3 along = glm::cross(p - contact, beyond);
-    const auto bearing = [&](VertexId q) {
-      const Vec3 d = local(q) - p;
-      return std::atan2(glm::dot(beyond, d) * glm::length(along), glm::dot(along, d) * glm::length(beyond));
+    const Vec3 across = beyond * glm::length(along), ahead = along * glm::length(beyond);
+    const auto bearing = [&](const Vec3& q) {
+      return diamond_angle(glm::dot(ahead, q - p), glm::dot(across, q - p));
     };
-    wedges_.clear();
-    for (EdgeId id : rings_.edges(v)) {
-      const Edge& e = mesh_.edges()[index(id)];
-      const VertexId q = e.from == v ? e.to : e.from;
-      add_wedge(bearing(q), bearing(e.left_apex));
-      if (!e.is_boundary()) add_wedge(bearing(q), bearing(e.right_apex));
+    auto& wedges = scratch.wedges;
+    wedges.clear();
+    for (const Star::Spoke& s : scratch.star.spokes) {
+      const double end = bearing(s.end);
+      add_wedge(end, bearing(s.left), wedges);
+      if (s.right) add_wedge(end, bearing(*s.right), wedges);
     }
-    std::sort(wedges_.begin(), wedges_.end());
-    double covered = -kPi;  // the disk's side is (-π, 0)
-    for (const auto& [low, high] : wedges_)
+    std::sort(wedges.begin(), wedges.end());
+    double covered = -kHalfTurn;  // the disk's side is (-kHalfTurn, 0)
+    for (const auto& [low, high] : wedges)
       if (low <= covered + 1e-9) covered = std::max(covered, high);
     const bool covers_all =
-        covered >= kPi - 1e-9;  // an inner vertex of the star's picture: no boundary at all
+        covered >= kHalfTurn - 1e-9;  // an inner vertex of the star's picture: no boundary at all
     return covered >= -1e-9 && !covers_all;
   }
 
-  /// The part of the wedge between two bearings, the short way round, that lies on the disk's side.
-  void add_wedge(double from, double to) {
+  /// The wedge between two bearings, the short way round.
+  static void add_wedge(double from, double to, std::vector<std::array<double, 2>>& wedges) {
     if (to < from) std::swap(from, to);
-    if (to - from <= kPi) {
-      wedges_.push_back({from, to});
+    if (to - from <= kHalfTurn) {
+      wedges.push_back({from, to});
     } else {
-      wedges_.push_back({-kPi, from});
-      wedges_.push_back({to, kPi});
+      wedges.push_back({-kHalfTurn, from});
+      wedges.push_back({to, kHalfTurn});
     }
   }
 
@@ -266,8 +314,6 @@ class Finder {
   const Vec3 center_;
   const double r_;
   std::vector<FacetEnd> ends_;
-  std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> links_;
-  std::vector<std::array<double, 2>> wedges_;
   Supports out_;
 };
 

@@ -95,7 +95,6 @@ TEST(DBufferPoses, NoLeaksSpecksSeamsOrAcne) {
 }
 
 // Entries of one texel are not all there are: a caster that is added can hide an entry that darkened more.
-// more.
 TEST(DBufferPoses, VisibilityMayRiseWhereACasterIsAddedButSeldom) {
   const std::unique_ptr<gl::Context> context = gl::make_context(gl::Backend::kOsMesa);
   std::size_t rises = 0, pixels = 0;
