@@ -114,7 +114,9 @@ std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixel_.size(), 4096), [&](const auto& range) {
       for (std::size_t k = range.begin(); k < range.end(); ++k) {
         const glm::vec3 d = center - glm::vec3(x_[k], y_[k], z_[k]), n(nx_[k], ny_[k], nz_[k]);
-        const float height = glm::dot(n, d), reach = radius * glm::length(n - glm::dot(n, m) * m);
+        const float height =
+            glm::dot(n, d) + static_cast<float>(kRayOffset);  // of the surface, not of the ray's origin
+        const float reach = radius * glm::length(n - glm::dot(n, m) * m);
         const bool lit = glm::dot(d, m) < 0.0f && height > -reach;
         out[pixel_[k]] = !lit              ? 0.0f
                          : height >= reach ? 1.0f

@@ -237,6 +237,7 @@ void DBuffer::Impl::find_geometry(const DBufferOptions& options, Plan& plan) con
     detail::append_entry_geometry({*casters[i].mesh, plan.space, b.supports, b.gaps, b.reach}, entry,
                                   plan.geometry);
   }
+  detail::sort_by_geometry(plan.geometry);
 }
 
 nlohmann::json DBuffer::Impl::count(const Plan& plan) {

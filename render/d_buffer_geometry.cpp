@@ -1,8 +1,12 @@
 #include "render/d_buffer_geometry.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 namespace penumbra::detail {
 namespace {
@@ -190,7 +194,29 @@ class Appender {
   std::uint32_t first_;
 };
 
+using EntryTriangle = std::array<EntryVertex, 3>;
+
+bool comes_before(const EntryTriangle& one, const EntryTriangle& two) {
+  const auto nearest = [](const EntryTriangle& t) { return std::max({t[0].w, t[1].w, t[2].w}); };
+  const auto numbers = [](const EntryVertex& v) { return std::tie(v.u, v.v, v.w, v.edge_weight); };
+  if (nearest(one) != nearest(two)) return nearest(one) > nearest(two);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (numbers(one[k]) != numbers(two[k])) return numbers(one[k]) < numbers(two[k]);
+  return false;
+}
+
 }  // namespace
+
+void sort_by_geometry(EntryGeometry& entries) {
+  for (auto* vertices : {&entries.penumbra, &entries.umbra}) {
+    std::vector<EntryTriangle> triangles(vertices->size() / 3);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      std::copy_n(vertices->begin() + static_cast<std::ptrdiff_t>(3 * i), 3, triangles[i].begin());
+    tbb::parallel_sort(triangles.begin(), triangles.end(), comes_before);
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+      std::copy_n(triangles[i].begin(), 3, vertices->begin() + static_cast<std::ptrdiff_t>(3 * i));
+  }
+}
 
 LightSpace::LightSpace(const DiskLight& light, double scale_factor)
     : axes(light_frame(light)),

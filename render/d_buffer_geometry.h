@@ -60,4 +60,8 @@ struct EntryGeometryOptions {
 void append_entry_geometry(const EntrySource& source, const EntryGeometryOptions& options,
                            EntryGeometry& out);
 
+/// Puts triangles in the order of their own numbers, nearest to the light first, so that which of two at the
+/// same depth is kept depends on where they are and not on how the mesh lists them. Cost O(n log n).
+void sort_by_geometry(EntryGeometry& entries);
+
 }  // namespace penumbra::detail

@@ -23,11 +23,17 @@ std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high
     return {{rows(x, y, z), {low.x - margin, high.x + margin, low.y - margin, high.y + margin}}};
   // A side faces ±x or ±y with "up" along z; its lower half would look behind the light, where nothing casts.
   const std::array<double, 4> full{-1, 1, -1, 1}, front{-1, 1, 0, 1};
-  return {{rows(x, y, z), full},
-          {rows(y, z, x), front},
-          {rows(-y, z, -x), front},
-          {rows(-x, z, y), front},
-          {rows(x, z, -y), front}};
+  std::vector<Target> sides{{rows(x, y, z), full}};
+  // The side towards +x sees u ≥ 1, |v| ≤ u; the others alike.
+  const auto add = [&](double farthest, double across_low, double across_high, const Target& side) {
+    const double nearest_across = std::max({0.0, across_low, -across_high});
+    if (farthest >= 1.0 && nearest_across <= farthest) sides.push_back(side);
+  };
+  add(high.x, low.y, high.y, {rows(y, z, x), front});
+  add(-low.x, low.y, high.y, {rows(-y, z, -x), front});
+  add(high.y, low.x, high.x, {rows(-x, z, y), front});
+  add(-low.y, low.x, high.x, {rows(x, z, -y), front});
+  return sides;
 }
 
 }  // namespace penumbra::detail

@@ -20,7 +20,8 @@ struct Target {
 inline constexpr double kWidestWindow = 2.5;
 
 /// One perspective of size × size texels fitted to `low`..`high` in (x/z, y/z), with a margin of two texels,
-/// where that is narrow enough, else the five sides of a hemicube. None where low > high: nothing casts.
+/// where that is narrow enough, else those sides of a hemicube that see some of it (the front one always).
+/// None where low > high: nothing casts.
 std::vector<Target> choose_targets(const glm::dvec2& low, const glm::dvec2& high, int size);
 
 }  // namespace penumbra::detail

@@ -55,7 +55,7 @@ struct Texel {
   float size;       // of a texel, at that distance
 };
 
-// The target whose axis is nearest to the direction; receivers outside of a single target's window have none.
+// The target whose axis is nearest to the direction; receivers outside of its window have none.
 Texel texel_of(vec3 x) {
   int best = 0;
   vec3 d = target_axes[0] * x;
@@ -69,9 +69,10 @@ Texel texel_of(vec3 x) {
   vec4 w = target_window[best];
   vec2 size = vec2(w.y - w.x, w.w - w.z);
   vec2 at = (d.xy / d.z - w.xz) / size;
-  bool outside = target_count == 0 || (target_count == 1 && (any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(1.0)))));
   vec2 count = vec2(textureSize(occluder_depth, 0).xy);
-  ivec2 texel = ivec2(clamp(at * count, vec2(0.0), count - 1.0));  // where two targets meet, rounding must not fall between
+  vec2 slack = target_count > 1 ? 0.5 / count : vec2(0.0);  // where two targets meet, rounding must not fall between
+  bool outside = target_count == 0 || any(lessThan(at, -slack)) || any(greaterThanEqual(at, 1.0 + slack));
+  ivec2 texel = ivec2(clamp(at * count, vec2(0.0), count - 1.0));
   vec3 centre = vec3(w.xz + (vec2(texel) + 0.5) / count * size, 1.0);
   return Texel(ivec3(texel, outside ? -1 : best), transpose(target_axes[best]) * centre, max(size.x, size.y) / count.x);
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "mesh/shapes.h"
 #include "render/render.h"
 #include "tests/bench/bench_support.h"
 
@@ -115,6 +116,44 @@ void time_sizes(const std::string& name) {
   std::printf("\n");
 }
 
+/// Median over frames of all that depends on the light, at 640×480.
+double frame_ms(const Scene& scene) {
+  const RayScene rays(scene, 0);
+  const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
+  const auto context = gl::make_context(gl::Backend::kOsMesa);
+  DBuffer d_buffer(*context, scene, rays);
+  d_buffer.set_surface(surface);
+  std::vector<double> totals;
+  for (int i = 0; i < kFrames; ++i) {
+    double total = 0.0;
+    for (const StageTime& s : d_buffer.render(scene.light, {}).stages) total += s.milliseconds;
+    if (i > 0) totals.push_back(total);
+  }
+  return median(totals);
+}
+
+void time_faces() {
+  std::printf("sphere over a floor, faces → milliseconds a frame:");
+  Scene scene = load_scene(std::string(PENUMBRA_DATA) + "/scenes/sphere-medium.json").scene;
+  for (int level = 2; level <= 7; ++level) {
+    scene.objects[1].mesh = make_icosphere({0, 2.5, 0}, 1.0, level);
+    std::printf("  %zu → %.0f", scene.objects[1].mesh.triangles().size(), frame_ms(scene));
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+}
+
+void time_radii(const std::string& name) {
+  std::printf("%s, light's radius → milliseconds a frame:", name.c_str());
+  Scene scene = load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+  for (double radius : {0.05, 0.1, 0.2, 0.4, 0.8, 1.6}) {
+    scene.light.radius = radius;
+    std::printf("  %g → %.0f", radius, frame_ms(scene));
+    std::fflush(stdout);
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 }  // namespace penumbra::bench
 
@@ -122,5 +161,7 @@ int main() {
   for (const char* name : {"cube-medium", "bunny-medium", "knot1-medium", "armadillo-medium"})
     penumbra::bench::time_scene(name);
   penumbra::bench::time_sizes("armadillo-medium");
+  penumbra::bench::time_faces();
+  penumbra::bench::time_radii("knot1-medium");
   return 0;
 }
