@@ -55,6 +55,17 @@ double rim_part(const Vec3& x, const Vec3& n, double rho, double from, double to
   return -0.5 * rho * integral;
 }
 
+/// The whole rim: what `rim_part` comes to over a full turn, without its angles.
+double whole_rim(const Vec3& x, const Vec3& n, double rho) {
+  const double away2 = x.x * x.x + x.y * x.y, away = std::sqrt(away2);
+  const double e = away2 + x.z * x.z + rho * rho, k = 2.0 * rho * away;
+  const double nearer = (away - rho) * (away - rho) + x.z * x.z,
+               farther = (away + rho) * (away + rho) + x.z * x.z;
+  const double s = std::sqrt(nearer * farther), q = k / (e + s);
+  const double radial = away > 0.0 ? (n.x * x.x + n.y * x.y) / away : n.x;
+  return -kPi * rho * (n.z * rho + q * (x.z * radial - n.z * away)) / s;
+}
+
 /// The share of the straight part from p to q (both relative to x).
 double chord_part(const Vec3& p, const Vec3& q, const Vec3& n) {
   const Vec3 c = glm::cross(p, q);
@@ -70,7 +81,7 @@ double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
   }
   const Chord horizon = chord_of_plane(n, x, rho);
   if (!(horizon.delta > -1.0)) return 0.0;
-  if (horizon.delta >= 1.0) return std::max(0.0, rim_part(x, n, rho, 0.0, 2.0 * kPi));
+  if (horizon.delta >= 1.0) return std::max(0.0, whole_rim(x, n, rho));
   const double middle = std::atan2(horizon.normal.y, horizon.normal.x), reach = std::acos(-horizon.delta);
   const auto rim = [&](double angle) { return Vec3{rho * std::cos(angle), rho * std::sin(angle), 0.0} - x; };
   return std::max(0.0, rim_part(x, n, rho, middle - reach, middle + reach) +
