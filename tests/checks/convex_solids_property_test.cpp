@@ -64,8 +64,8 @@ class SolidCheck {
         ADD_FAILURE() << "seed " << kSeed << " solid " << solid << " point " << i << ": umbra " << in_umbra
                       << " for " << dark << ", penumbra " << in_penumbra << " for " << shaded << ", "
                       << beyond(umbra_, x) << " beyond the umbra's planes, " << beyond(penumbra_, x)
-                      << " beyond the penumbra's, at " << x.x << ", " << x.y << ", " << x.z << "; to a corner "
-                      << to_corner(x);
+                      << " beyond the penumbra's, at " << x.x << ", " << x.y << ", " << x.z
+                      << "; to a corner " << to_corner(x);
     }
     figures.exact += static_cast<long>(umbra_oracle_.exact_decisions() + oracle_.exact_decisions());
   }
