@@ -9,7 +9,10 @@ target_compile_options(penumbra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshado
 if(PENUMBRA_WERROR)
   target_compile_options(penumbra_flags INTERFACE -Werror)
 endif()
-if(PENUMBRA_SANITIZE)
+if(PENUMBRA_FUZZ)
+  target_compile_options(penumbra_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+if(PENUMBRA_SANITIZE OR PENUMBRA_FUZZ)
   target_compile_options(penumbra_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                          -fno-omit-frame-pointer)
   target_link_options(penumbra_flags INTERFACE -fsanitize=address,undefined)
