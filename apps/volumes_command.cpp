@@ -12,6 +12,7 @@
 #include "apps/outputs.h"
 #include "apps/reports.h"
 #include "mesh/error.h"
+#include "volumes/checks.h"
 
 namespace penumbra::apps {
 namespace {
@@ -20,20 +21,24 @@ constexpr const char* kFooter = R"(Examples:
   penumbra volumes bunny.ply --penumbra p.ply
   penumbra volumes scene.json --umbra u.ply --penumbra p.ply --report -
   penumbra volumes scene.json --sheets s.obj --cone-segments 32
+  penumbra volumes scene.json --check
 Each file holds all casters. In PLY every triangle says its object (index in the scene), kind and source (face, edge or
 vertex of that object's mesh, by kind). Inside a volume is where its winding number is at least 1: every point that an
-object partly or wholly hides from the disk is inside its penumbra volume. Sheets are facets and cone patches, closed only
+object partly or wholly hides from the disk is inside its penumbra volume, and only points that it wholly hides are inside
+its umbra volume: all of them where the object is one convex body (guarantee exact), else as many as the convex and
+star-shaped bodies in it hide alone (contained). --check ends with exit code 1 where a volume is not closed, or umbra, hard
+shadow and penumbra do not lie inside each other; pieces that cross each other are no fault. Sheets are facets and cone patches, closed only
 for convex casters. Lengths are scene units.)";
 
 struct Arguments {
   CommonOptions common;
   SceneInput scene;
   std::filesystem::path umbra, penumbra, sheets, report;
-  bool merge = false;
+  bool merge = false, check = false;
   int cone_segments = ExtrudeOptions{}.cone_segments;
 
-  bool wants_umbra() const { return !umbra.empty() || only_report(); }
-  bool wants_penumbra() const { return !penumbra.empty() || only_report(); }
+  bool wants_umbra() const { return !umbra.empty() || only_report() || check; }
+  bool wants_penumbra() const { return !penumbra.empty() || only_report() || check; }
   bool wants_sheets() const { return !sheets.empty(); }
   bool only_report() const { return umbra.empty() && penumbra.empty() && sheets.empty(); }
 };
@@ -43,11 +48,13 @@ struct Volumes {
   std::vector<ShadowMesh> umbra, penumbra, sheets;
   nlohmann::json objects = nlohmann::json::array();
   std::size_t caster_faces = 0;
+  std::string findings;  ///< of --check, for a person
+  bool good = true;
 };
 
 void check(const Arguments& arguments) {
-  if (arguments.only_report() && arguments.report.empty())
-    throw UsageError("nothing to do; give --umbra, --penumbra, --sheets or --report");
+  if (arguments.only_report() && arguments.report.empty() && !arguments.check)
+    throw UsageError("nothing to do; give --umbra, --penumbra, --sheets, --report or --check");
   const std::pair<const char*, const std::filesystem::path*> meshes[] = {
       {"--umbra", &arguments.umbra}, {"--penumbra", &arguments.penumbra}, {"--sheets", &arguments.sheets}};
   for (const auto& [option, path] : meshes) {
@@ -112,7 +119,15 @@ void add_object(const Arguments& arguments, const Scene& scene, std::size_t numb
   if (arguments.wants_penumbra())
     add("penumbra", volumes.penumbra, [&] { return extrude_penumbra(mesh, scene.light, classes, options); });
   if (arguments.wants_umbra())
-    add("umbra", volumes.umbra, [&] { return extrude_umbra(mesh, scene.light, classes, options); });
+    add("umbra", volumes.umbra, [&] { return convex_umbra(mesh, scene.light, classes, options); });
+  if (arguments.check) {
+    const VolumeFindings findings = stages.time("check", [&] {
+      return validate(mesh, scene.light, volumes.umbra.back(), volumes.penumbra.back(), options);
+    });
+    report["check"] = check_report(findings);
+    volumes.findings += check_text(number, object.name, findings);
+    volumes.good = volumes.good && findings.good();
+  }
   report["milliseconds"] = stages.milliseconds();
   volumes.objects.push_back(report);
   volumes.caster_faces += mesh.triangles().size();
@@ -160,6 +175,9 @@ void run(const Arguments& arguments) {
   const Volumes volumes = build_volumes(arguments, scene);
   if (arguments.common.verbose) say(volumes.objects);
   write(arguments, volumes);
+  if (arguments.check && arguments.report != "-") print(volumes.findings);
+  if (!volumes.good)
+    throw SystemError("the volumes did not pass --check; please report the scene with this output");
 }
 
 }  // namespace
@@ -180,6 +198,8 @@ void add_volumes_command(CLI::App& app) {
       "--merge", arguments->merge,
       "One volume for the whole scene (inside: winding number at least 1 over all triangles), and its "
       "figures in the report; otherwise each object's triangles are a volume of their own");
+  command.add_flag("--check", arguments->check,
+                   "Say whether the volumes are closed, cross themselves and lie inside each other");
   command.add_option("--cone-segments", arguments->cone_segments, "Corners of the polygon around the disk")
       ->check(CLI::Range(3, 4'096))
       ->capture_default_str();

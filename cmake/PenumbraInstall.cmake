@@ -1,4 +1,4 @@
-# `cmake --install` and `find_package(penumbra COMPONENTS volumes)`. Components: mesh, volumes, render. Headers keep their
+# `cmake --install` and `find_package(penumbra COMPONENTS volumes)`. Components: mesh, volumes, checks, render. Headers keep their
 # layout below include/penumbra, which is on the include path of whoever links a target: #include <volumes/volumes.h>.
 include(CMakePackageConfigHelpers)
 

@@ -1,5 +1,6 @@
 # penumbra_library(NAME): the static library penumbra_NAME (alias penumbra::NAME) from every .cpp of the calling folder
-# and, where EXTRA names them, of its sub-folders; headers are installed with the same layout.
+# and, where EXTRA names them, of its sub-folders; where ONLY names sub-folders, of those alone. Headers are installed with
+# the same layout.
 include(GNUInstallDirs)
 
 add_library(penumbra_flags INTERFACE)
@@ -8,16 +9,21 @@ target_compile_options(penumbra_flags INTERFACE -Wall -Wextra -Wpedantic -Wshado
 if(PENUMBRA_WERROR)
   target_compile_options(penumbra_flags INTERFACE -Werror)
 endif()
-if(PENUMBRA_SANITIZE)
+if(PENUMBRA_FUZZ)
+  target_compile_options(penumbra_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+if(PENUMBRA_SANITIZE OR PENUMBRA_FUZZ)
   target_compile_options(penumbra_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                          -fno-omit-frame-pointer)
   target_link_options(penumbra_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
 function(penumbra_library name)
-  cmake_parse_arguments(ARG "" "" "EXTRA" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  foreach(folder IN LISTS ARG_EXTRA)
+  cmake_parse_arguments(ARG "" "" "EXTRA;ONLY" ${ARGN})
+  if(NOT ARG_ONLY)
+    file(GLOB sources CONFIGURE_DEPENDS *.cpp)
+  endif()
+  foreach(folder IN LISTS ARG_EXTRA ARG_ONLY)
     file(GLOB more CONFIGURE_DEPENDS ${folder}/*.cpp)
     list(APPEND sources ${more})
   endforeach()

@@ -2,8 +2,10 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+#include <algorithm>
 
 #include "volumes/detail/predicate_tiers.h"
+#include "volumes/detail/quick_class.h"
 
 namespace penumbra {
 
@@ -14,11 +16,6 @@ constexpr std::size_t kFacesPerTask = 2048;
 struct Corners {
   const Vec3 &a, &b, &c;
 };
-
-Corners corners_of(const TriangleMesh& mesh, std::size_t face) {
-  const IndexedTriangle& t = mesh.triangles()[face];
-  return {mesh.positions()[t[0]], mesh.positions()[t[1]], mesh.positions()[t[2]]};
-}
 
 /// Counts of one range of faces; sums do not depend on how faces were divided.
 struct Counts {
@@ -35,6 +32,10 @@ Counts sum(Counts a, const Counts& b) {
 }
 
 FaceClass classify_hard_face(const Corners& f, const DiskLight& light, TierTally& tally) {
+  if (const auto decided = detail::filter::classify_face(f.a, f.b, f.c, light)) {
+    ++tally.filter;
+    return *decided;
+  }
   if (const auto decided = detail::interval::classify_face(f.a, f.b, f.c, light)) {
     ++tally.interval;
     return *decided;
@@ -43,21 +44,40 @@ FaceClass classify_hard_face(const Corners& f, const DiskLight& light, TierTally
   return detail::exact::classify_face(f.a, f.b, f.c, light);
 }
 
+/// Everything that the loop reads is a local of its own: stores of classes, being bytes, might otherwise
+/// change it as far as the compiler knows.
+Counts classify_some(const TriangleMesh& mesh, const DiskLight& light, std::size_t begin, std::size_t end,
+                     FaceClass* out) {
+  const detail::QuickClassifier quickly(light);
+  const Vec3* positions = mesh.positions().data();
+  const IndexedTriangle* triangles = mesh.triangles().data();
+  Counts counts;
+  std::size_t hard = 0;
+  for (std::size_t i = begin; i != end; ++i) {
+    const IndexedTriangle& t = triangles[i];
+    const Corners f{positions[t[0]], positions[t[1]], positions[t[2]]};
+    if (const auto quick = quickly(f.a, f.b, f.c)) {
+      out[i] = *quick;
+    } else {
+      ++hard;
+      out[i] = classify_hard_face(f, light, counts.tally);
+    }
+  }
+  counts.tally.filter += end - begin - hard;
+  for (int k = 0; k < 3; ++k)
+    counts.classes[k] =
+        static_cast<std::size_t>(std::count(out + begin, out + end, static_cast<FaceClass>(k)));
+  return counts;
+}
+
 }  // namespace
 
 Classification classify_faces(const TriangleMesh& mesh, const DiskLight& light) {
   Classification result;
   result.faces.resize(mesh.triangles().size());
 
-  const auto classify_range = [&](const tbb::blocked_range<std::size_t>& range, Counts counts) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const Corners f = corners_of(mesh, i);
-      const auto quick = detail::filter::classify_face(f.a, f.b, f.c, light);
-      if (quick) ++counts.tally.filter;
-      result.faces[i] = quick ? *quick : classify_hard_face(f, light, counts.tally);
-      ++counts.classes[static_cast<std::size_t>(result.faces[i])];
-    }
-    return counts;
+  const auto classify_range = [&](const tbb::blocked_range<std::size_t>& range, const Counts& counts) {
+    return sum(counts, classify_some(mesh, light, range.begin(), range.end(), result.faces.data()));
   };
   const Counts counts = tbb::parallel_reduce(
       tbb::blocked_range<std::size_t>(0, result.faces.size(), kFacesPerTask), Counts{}, classify_range, sum);

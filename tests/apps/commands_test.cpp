@@ -74,6 +74,31 @@ TEST_F(CommandTest, MergedVolumesAreReportedForTheScene) {
   EXPECT_EQ(report["scene"]["penumbra"]["triangles"], report["objects"][0]["penumbra"]["triangles"]);
 }
 
+TEST_F(CommandTest, UmbraOfAConvexCasterIsExactAndChecked) {
+  const std::string scene = write("one.json", scene_text("t.off"));
+  const Json report = Json::parse(fine({"volumes", scene, "--check", "--report", "-"}).out);
+  const Json& caster = report["objects"][0];
+  EXPECT_EQ(caster["umbra"]["guarantee"], "exact");
+  EXPECT_GT(caster["umbra"]["signed_volume"], 0.0);
+  EXPECT_EQ(caster["check"]["good"], true);
+  EXPECT_EQ(caster["check"]["umbra"]["bounds_a_volume"], true);
+  EXPECT_EQ(caster["check"]["umbra_in_hard"]["outside"], 0);
+  EXPECT_NE(fine({"volumes", scene_, "--check"}).out.find(": good"), std::string::npos);
+}
+
+TEST_F(CommandTest, RepairWritesAMendedMeshAndSaysWhatWasDone) {
+  const std::string turned = write("turned.off",
+                                   "OFF\n4 4 0\n0 0 0\n1 0 0\n0 0 1\n0.2 1 0.2\n"
+                                   "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 2 0 3\n");
+  const Json report = Json::parse(fine({"inspect", turned, "--json", "--repair", path("mended.ply")}).out);
+  EXPECT_EQ(report["closed"], false);
+  ASSERT_EQ(report["repair"]["components"].size(), 1u);
+  EXPECT_EQ(report["repair"]["components"][0]["verdict"], "mended");
+  EXPECT_EQ(report["repair"]["components"][0]["flipped"], Json::array({3}));
+  EXPECT_EQ(Json::parse(fine({"inspect", path("mended.ply"), "--json"}).out)["closed"], true);
+  EXPECT_EQ(run({"inspect", turned, "--repair", path("mended.xyz")}).code, 2);
+}
+
 TEST_F(CommandTest, UnknownKeysWarnOnOneLineEach) {
   const std::string odd = write("odd.json", scene_text("t.off", R"(,"colour":[1,0,0],"x-note":"kept")"));
   const Outcome outcome = run({"classify", odd});

@@ -9,6 +9,7 @@
 #include "mesh/shapes.h"
 #include "render/render.h"
 #include "tests/bench/bench_support.h"
+#include "tests/bench/classify_price.h"
 
 namespace penumbra::bench {
 namespace {
@@ -157,7 +158,10 @@ void time_radii(const std::string& name) {
 }  // namespace
 }  // namespace penumbra::bench
 
-int main() {
+/// `penumbra_bench price` compares classifications alone.
+int main(int argc, char** argv) {
+  penumbra::bench::compare_prices_of_classification();
+  if (argc > 1 && std::string(argv[1]) == "price") return 0;
   for (const char* name : {"cube-medium", "bunny-medium", "knot1-medium", "armadillo-medium"})
     penumbra::bench::time_scene(name);
   penumbra::bench::time_sizes("armadillo-medium");

@@ -10,6 +10,9 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_CXX_C
     -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/consumer)
+if(EXISTS ${WORK}/build/checks_consumer)
+  run(${WORK}/build/checks_consumer)
+endif()
 
 file(SIZE ${WORK}/penumbra.ply size)
 if(size LESS 1000)

@@ -1,9 +1,6 @@
 // libFuzzer target for the mesh readers and the builder: any bytes give a mesh or a MeshError, nothing else.
 //
-// The first byte picks the file name that serves as a hint. The root of the repository is the working folder:
-//   clang++ -std=c++20 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined -I.
-//     tests/fuzz/mesh_fuzz.cpp mesh/*.cpp mesh/detail/*.cpp -lOpenMeshCore -o build/mesh_fuzz
-//   build/mesh_fuzz -max_total_time=120 -rss_limit_mb=2048 CORPUS_FOLDER
+// The first byte picks the file name that serves as a hint.
 #include <array>
 #include <cstdint>
 #include <cstdlib>

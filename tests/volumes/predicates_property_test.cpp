@@ -2,11 +2,13 @@
 // against each other; the laws that the header states. Prints how many inputs each tier decided.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <iostream>
 
 #include "tests/volumes/random_inputs.h"
 #include "tests/volumes/rational.h"
 #include "volumes/detail/predicate_tiers.h"
+#include "volumes/detail/quick_class.h"
 
 namespace penumbra {
 namespace {
@@ -20,7 +22,8 @@ using testing::sign_of;
 using testing::sign_of_root_form;
 
 constexpr std::uint64_t kSeed = 20040618;
-constexpr int kInputs = 100'000;
+/// PENUMBRA_LONG=1 in the environment asks for a million of each.
+const int kInputs = std::getenv("PENUMBRA_LONG") ? 1'000'000 : 100'000;
 
 // ---- oracles
 // ----------------------------------------------------------------------------------------------------------
@@ -116,14 +119,21 @@ void expect_agreement(const std::string& name, const Tally& tally) {
 TEST(PredicatesProperty, ClassifyFaceAgreesWithRationals) {
   testing::RandomInputs random(kSeed);
   Tally tally;
+  int quick_decisions = 0;
   for (int k = 0; k < kInputs; ++k) {
     const auto in = testing::predicate_input(random, k);
     const auto& p = in.p;
+    if (const auto quick = detail::QuickClassifier(in.light)(p[0], p[1], p[2])) {
+      ++quick_decisions;
+      ASSERT_EQ(*quick, classify_oracle(in)) << "seed " << kSeed << " input " << k;
+    }
     count(tally, detail::filter::classify_face(p[0], p[1], p[2], in.light),
           detail::interval::classify_face(p[0], p[1], p[2], in.light),
           detail::exact::classify_face(p[0], p[1], p[2], in.light), classify_face(p[0], p[1], p[2], in.light),
           classify_oracle(in));
   }
+  std::cout << "  quick filter: " << quick_decisions << "\n";
+  EXPECT_GT(quick_decisions, kInputs / 10);
   expect_agreement("classify_face", tally);
 }
 

@@ -75,7 +75,10 @@ Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const
   if (polygon.size() < 3) return Answer::kNo;
 
   // 2. Side planes of the cone, turned inward. In the triangle's own plane nothing is hidden.
-  const Vector<N> normal = outer(minus(polygon[1], polygon[0]), minus(polygon[2], polygon[0]));
+  const Vector<N> side1 = minus(polygon[1], polygon[0]), side2 = minus(polygon[2], polygon[0]);
+  const Vector<N> normal = outer(side1, side2);
+  // Of a sliver doubles know no normal.
+  sign(inner(normal, normal), N(inner(side1, side1) * inner(side2, side2)));
   const Vector<N> to_x = minus(x, polygon[0]);
   const N height = inner(normal, to_x);
   const int side = sign(height * height, N(inner(normal, normal) * inner(to_x, to_x)));
@@ -118,6 +121,8 @@ Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const
     hides = reaches(plus(c, N(-inner(planes[i], minus(c, x)) / length2), in_plane), i, none, N(1));
     for (std::size_t j = i + 1; j < planes.size() && !hides; ++j) {
       const Vector<N> line = outer(planes[i], planes[j]);
+      sign(inner(line, line), N(inner(planes[i], planes[i]) * inner(planes[j], planes[j])));
+      if (unsure) return Answer::kUnsure;
       const N slope = inner(m, line);
       if (!(slope > 0 || slope < 0)) continue;
       hides = reaches(plus(x, N(inner(m, minus(c, x)) / slope), line), i, j, N(1));
