@@ -9,19 +9,12 @@
 
 #include "render/disk_samples.h"
 #include "render/ray_scene_impl.h"
+#include "render/vector_clones.h"
 
 namespace penumbra {
 namespace {
 
 constexpr int kLanes = 16;
-
-// The loops over lanes are compiled for several instruction sets; which one runs is chosen when the program
-// starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PENUMBRA_VECTOR_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
-#else
-#define PENUMBRA_VECTOR_CLONES
-#endif
 
 /// Where each sample's stratum lies, so that no lane divides.
 struct StratumTable {

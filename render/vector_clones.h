@@ -1,0 +1,9 @@
+// Loops that are compiled for several instruction sets; which one runs is chosen when the program starts.
+// Contraction of products and sums is off in the whole project, so that all give the same bits.
+#pragma once
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PENUMBRA_VECTOR_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#else
+#define PENUMBRA_VECTOR_CLONES
+#endif
