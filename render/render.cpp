@@ -58,6 +58,7 @@ nlohmann::json to_json(const SilhouetteCounts& c) {
           {"projected_edges", c.projected_edges},
           {"segments", c.segments},
           {"integrated", c.integrated},
+          {"slabs", c.slabs},
           {"fused", c.fused},
           {"overlapping", c.overlapping},
           {"rays", c.rays},

@@ -21,7 +21,6 @@ namespace {
 using namespace detail;
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kRowsOfOneChain = 8;  // the area is exact then; rows only look for points to aim rays at
 
 /// What one thread keeps between tiles, and what it has counted.
 struct Workspace {
@@ -30,12 +29,12 @@ struct Workspace {
   std::array<Fused, kTileReceivers> fused;
   std::array<double, kTileReceivers> disk_area;
   std::array<bool, kTileReceivers> certain;
+  bool reached = false;  ///< some caster's box is in reach of the tile's shaft
   std::vector<std::uint32_t> edges;
   EdgeList list;
-  Projections projections;
   Sight sight;
   Cut cut;
-  Scanlines scanlines;
+  Fuser fuser;
   std::vector<RayTask> tasks, second_tasks;
   std::vector<std::uint32_t> fallback, open;
   SilhouetteCounts counts;
@@ -63,6 +62,7 @@ class Evaluation {
     if (w.receivers.count == 0) return;
     ++w.counts.tiles;
     gather(w);
+    if (!w.reached) return light_up(w);
     for (int i = 0; i < w.receivers.count; ++i) evaluate(i, w);
     decide(w);
   }
@@ -74,6 +74,7 @@ class Evaluation {
   void evaluate(int i, Workspace& w) const;
   void integrate(int i, const DiskPart& part, Workspace& w) const;
   void decide(Workspace& w) const;
+  void light_up(Workspace& w) const;
 
   const Scene& scene_;
   const RayScene& rays_;
@@ -110,8 +111,10 @@ void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
     return;
   }
   const Vec3 n = light_.direction(normal);
-  const Chord horizon = chord_of_plane(n, x, 1.0);
-  if (!(horizon.delta > -1.0)) {
+  // The center's height over the tangent plane, and how far the plane falls or rises across the disk.
+  const double center = -glm::dot(n, x), fall2 = n.x * n.x + n.y * n.y;
+  const bool cuts = center * center < fall2;
+  if (!cuts && !(center > 0.0)) {
     out_.visibility[pixel] = 0.0f;
     return;
   }
@@ -120,14 +123,20 @@ void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
   r.x[i] = x.x, r.y[i] = x.y, r.z[i] = x.z;
   r.normal[i] = n;
   r.pixel[i] = static_cast<std::uint32_t>(pixel);
-  w.horizons[i] = horizon.delta < 1.0 ? horizon : no_horizon();
-  r.horizon_cuts = r.horizon_cuts || horizon.delta < 1.0;
+  w.horizons[i] = cuts ? chord_of_plane(n, x, 1.0) : no_horizon();
+  r.horizon_cuts = r.horizon_cuts || cuts;
 }
 
 void Evaluation::gather(Workspace& w) const {
   w.edges.clear();
-  tree_.gather(Shaft(w.receivers, band_.extent), w.edges);
-  w.list.assign(band_, w.edges);
+  Shaft shaft(w.receivers, band_.extent);
+  w.reached = !std::all_of(band_.casters.begin(), band_.casters.end(),
+                           [&](const Bounds& box) { return shaft.misses(box.low, box.high); });
+  if (w.reached && !tree_.misses(shaft)) {
+    shaft.tighten(w.receivers);
+    tree_.gather(shaft, w.edges);
+  }
+  w.list.assign(band_, w.edges, shaft.middle());
   w.tasks.clear();
   w.second_tasks.clear();
   w.counts.receivers += static_cast<std::size_t>(w.receivers.count);
@@ -141,12 +150,12 @@ void Evaluation::integrate(int i, const DiskPart& part, Workspace& w) const {
     w.fallback.push_back(w.receivers.pixel[i]);
     return;
   }
-  const bool chain = is_one_chain(w.cut);
-  w.fused[i] = w.scanlines.fuse(w.cut, part, chain ? kRowsOfOneChain : options_.rows);
+  w.fused[i] = w.fuser.fuse(w.cut, part, options_.rows);
   w.tasks.push_back({w.receivers.pixel[i], w.fused[i].aims[0], false, i});
   w.counts.segments += w.cut.segments.size();
   ++w.counts.integrated;
-  w.counts.fused += chain ? 0 : 1;
+  w.counts.slabs += w.fused[i].way == Fusion::kSlabs ? 1 : 0;
+  w.counts.fused += w.fused[i].way == Fusion::kRows ? 1 : 0;
   w.counts.overlapping += w.fused[i].levels > 2 ? 1 : 0;
 }
 
@@ -155,8 +164,7 @@ void Evaluation::evaluate(int i, Workspace& w) const {
   w.sight.segments.clear();
   w.sight.certain = true;
   if (w.list.size() > 0) {
-    project_edges(w.list, w.receivers.at(i), slack_, w.projections);
-    select_segments(w.projections, w.list.size(), w.horizons[i], w.sight);
+    look(w.list, w.receivers.at(i), w.horizons[i], slack_, w.sight);
     w.counts.projected_edges += w.list.size();
   }
   // Below a horizon that cuts the disk edges may have been left out: nothing is certified there.
@@ -170,6 +178,16 @@ void Evaluation::evaluate(int i, Workspace& w) const {
   } else {
     w.open.push_back(w.receivers.pixel[i]);
   }
+}
+
+/// No caster is between the tile and the light.
+void Evaluation::light_up(Workspace& w) const {
+  for (int i = 0; i < w.receivers.count; ++i) {
+    const std::uint32_t pixel = w.receivers.pixel[i];
+    out_.visibility[pixel] = static_cast<float>(half_plane_area(w.horizons[i].delta));
+    out_.region[pixel] = 0;
+  }
+  w.counts.certified_lit += static_cast<std::size_t>(w.receivers.count);
 }
 
 /// The rays of a tile, and what they make of its areas.
@@ -199,8 +217,8 @@ SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
        {&SilhouetteCounts::receivers, &SilhouetteCounts::certified_lit, &SilhouetteCounts::certified_umbra,
         &SilhouetteCounts::behind_light, &SilhouetteCounts::tiles, &SilhouetteCounts::empty_tiles,
         &SilhouetteCounts::listed_edges, &SilhouetteCounts::projected_edges, &SilhouetteCounts::segments,
-        &SilhouetteCounts::integrated, &SilhouetteCounts::fused, &SilhouetteCounts::overlapping,
-        &SilhouetteCounts::rays, &SilhouetteCounts::second_rays})
+        &SilhouetteCounts::integrated, &SilhouetteCounts::slabs, &SilhouetteCounts::fused,
+        &SilhouetteCounts::overlapping, &SilhouetteCounts::rays, &SilhouetteCounts::second_rays})
     a.*member += b.*member;
   return a;
 }

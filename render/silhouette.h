@@ -40,7 +40,8 @@ struct SilhouetteCounts {
   std::size_t projected_edges = 0;         ///< sum over receivers of their tile's list
   std::size_t segments = 0;                ///< sum over receivers of the segments across the disk
   std::size_t integrated = 0;              ///< receivers whose area was integrated
-  std::size_t fused = 0;                   ///< of these, with scanlines at full number
+  std::size_t slabs = 0;                   ///< of these, by slabs
+  std::size_t fused = 0;                   ///< of these, by rows
   std::size_t overlapping = 0;             ///< of these, where more than two levels were met
   std::size_t rays = 0, second_rays = 0;
   std::size_t fallback = 0;  ///< receivers left to rays, since edges did not close up

@@ -1,148 +1,186 @@
 #include "render/silhouette_certificate.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "render/silhouette_domain.h"
 #include "render/vector_clones.h"
+#include "volumes/detail/vectors.h"
 
 namespace penumbra::detail {
 namespace {
 
 constexpr double kHair = 0x1p-23;
 
-/// One edge's numbers, by value: the body of both loops.
-struct EdgeSeen {
-  double ax, ay, bx, by;
-  float jump;
-  bool near;
+/// The receiver: where it is, and the same from the tile's middle.
+struct FloatReceiver {
+  float x, y, z, dx, dy, dz, extent;
 };
+
+FloatReceiver float_receiver(const EdgeList& list, const Vec3& x) {
+  const Vec3 d = x - list.middle();
+  return {static_cast<float>(x.x),          static_cast<float>(x.y), static_cast<float>(x.z),
+          static_cast<float>(d.x),          static_cast<float>(d.y), static_cast<float>(d.z),
+          static_cast<float>(list.extent())};
+}
+
+/// Whether an edge has to be looked at, without branches. Products and sums as they stand: float.
+PENUMBRA_INLINE std::int32_t is_kept(float ax, float ay, float az, float bx, float by, float bz, float size,
+                                     float lx, float ly, float lz, float ld, float lt, float rx, float ry,
+                                     float rz, float rd, float rt, const FloatReceiver& r) {
+  const float left = lx * r.dx + ly * r.dy + lz * r.dz + ld;
+  const float right = rx * r.dx + ry * r.dy + rz * r.dz + rd;
+  // Both beyond their tolerance and of one sign: a jump of 0. An edge with one face has a right tolerance
+  // that is never passed.
+  const bool idle = ((left > lt) & (right > rt)) | ((-left > lt) & (-right > rt));
+
+  const float wa = r.dz - az, wb = r.dz - bz;
+  const float w = wa < wb ? wa : wb;
+  const float ga = r.z / wa, gb = r.z / wb;
+  const float pax = r.x + (ax - r.dx) * ga, pay = r.y + (ay - r.dy) * ga;
+  const float pbx = r.x + (bx - r.dx) * gb, pby = r.y + (by - r.dy) * gb;
+  const float sx = pbx - pax, sy = pby - pay;
+  const float length2 = sx * sx + sy * sy;
+  const float along = -(pax * sx + pay * sy);
+  const float across = pax * sy - pay * sx;
+  const float reach = 1.0f + 0x1p-19f * (r.extent + size * (ga > gb ? ga : gb) * (1.0f + size / w));
+  const float reach2 = reach * reach;
+  const float a2 = pax * pax + pay * pay, b2 = pbx * pbx + pby * pby;
+  const bool beside = (across * across > reach2 * length2 * 1.0001f) | ((along <= 0.0f) & (a2 > reach2)) |
+                      ((along >= length2) & (b2 > reach2));
+  // An edge that rises above the receiver is left to the second pass unless it lies above wholly.
+  const float hair = 0x1p-20f * (r.extent + size);
+  const bool above = (wa < -hair) & (wb < -hair);
+  const bool below = w > hair;
+  return (idle | above | (below & beside)) ? 0 : 1;
+}
 
 struct Columns {
-  explicit Columns(const EdgeList& l)
-      : ax(l.column(EdgeList::kAx)),
-        ay(l.column(EdgeList::kAy)),
-        az(l.column(EdgeList::kAz)),
-        bx(l.column(EdgeList::kBx)),
-        by(l.column(EdgeList::kBy)),
-        bz(l.column(EdgeList::kBz)),
-        lx(l.column(EdgeList::kLx)),
-        ly(l.column(EdgeList::kLy)),
-        lz(l.column(EdgeList::kLz)),
-        ld(l.column(EdgeList::kLd)),
-        lt(l.column(EdgeList::kLt)),
-        rx(l.column(EdgeList::kRx)),
-        ry(l.column(EdgeList::kRy)),
-        rz(l.column(EdgeList::kRz)),
-        rd(l.column(EdgeList::kRd)),
-        rt(l.column(EdgeList::kRt)),
-        right(l.column(EdgeList::kRight)) {}
-  const double *ax, *ay, *az, *bx, *by, *bz, *lx, *ly, *lz, *ld, *lt, *rx, *ry, *rz, *rd, *rt, *right;
+  explicit Columns(const EdgeList& l) {
+    for (int c = 0; c < EdgeList::kColumns; ++c) at[c] = l.column(static_cast<EdgeList::Column>(c));
+  }
+  const float* at[EdgeList::kColumns];
 };
 
-inline EdgeSeen see(const Columns& e, std::size_t i, double x, double y, double z, double reach2) {
-  const double left = e.lx[i] * x + e.ly[i] * y + e.lz[i] * z + e.ld[i];
-  const double right = e.rx[i] * x + e.ry[i] * y + e.rz[i] * z + e.rd[i];
-  const double jump = (left > 0.0 ? 1.0 : -1.0) + (right > 0.0 ? -e.right[i] : e.right[i]);
-  const bool sure = (std::abs(left) > e.lt[i]) & (std::abs(right) > e.rt[i]);
-
-  const double least = kHair * z;
-  const double wa = z - e.az[i], wb = z - e.bz[i];
-  const double dx = e.bx[i] - e.ax[i], dy = e.by[i] - e.ay[i], dw = wb - wa;
-  // Where an end is not below the receiver, the point of the edge that is so by a hair.
-  const double ta = wa < least ? (least - wa) / dw : 0.0;
-  const double tb = wb < least ? (least - wa) / dw : 1.0;
-  const double ca = wa < least ? least : wa, cb = wb < least ? least : wb;
-  const double ex = tb < 1.0 ? e.ax[i] + tb * dx : e.bx[i], ey = tb < 1.0 ? e.ay[i] + tb * dy : e.by[i];
-  const double ga = z / ca, gb = z / cb;
-  const double pax = x + (e.ax[i] + ta * dx - x) * ga, pay = y + (e.ay[i] + ta * dy - y) * ga;
-  const double pbx = x + (ex - x) * gb, pby = y + (ey - y) * gb;
-
-  // Nearest point of the segment to the disk's centre.
-  const double sx = pbx - pax, sy = pby - pay;
-  const double length2 = sx * sx + sy * sy;
-  const double along = -(pax * sx + pay * sy);
-  const double t = along <= 0.0 ? 0.0 : (along >= length2 ? 1.0 : along / length2);
-  const double nx = pax + t * sx, ny = pay + t * sy;
-  const bool meets = (nx * nx + ny * ny < reach2) & ((wa > least) | (wb > least));
-  return {pax, pay, pbx, pby, static_cast<float>(jump), meets && (jump != 0.0 || !sure)};
-}
-
-inline void put(const EdgeSeen& seen, std::size_t i, double* ax, double* ay, double* bx, double* by,
-                float* jump, std::uint8_t* near) {
-  ax[i] = seen.ax, ay[i] = seen.ay, bx[i] = seen.bx, by[i] = seen.by;
-  jump[i] = seen.jump;
-  near[i] = seen.near;
-}
-
+/// kept[i] = 1 for edges first + i that have to be looked at, else 0.
 PENUMBRA_VECTOR_CLONES
-void project_range(const Columns& e, std::size_t count, double x, double y, double z, double reach2,
-                   double* __restrict ax, double* __restrict ay, double* __restrict bx, double* __restrict by,
-                   float* __restrict jump, std::uint8_t* __restrict near) {
-  const Columns c = e;
-  for (std::size_t i = 0; i < count; ++i) put(see(c, i, x, y, z, reach2), i, ax, ay, bx, by, jump, near);
+void sift_range(const Columns& columns, std::size_t first, int count, const FloatReceiver& receiver,
+                std::int32_t* __restrict kept) {
+  const FloatReceiver r = receiver;
+  using L = EdgeList;
+  const float* const* at = columns.at;
+  const float *ax = at[L::kAx] + first, *ay = at[L::kAy] + first, *az = at[L::kAz] + first;
+  const float *bx = at[L::kBx] + first, *by = at[L::kBy] + first, *bz = at[L::kBz] + first;
+  const float *lx = at[L::kLx] + first, *ly = at[L::kLy] + first, *lz = at[L::kLz] + first;
+  const float *rx = at[L::kRx] + first, *ry = at[L::kRy] + first, *rz = at[L::kRz] + first;
+  const float *ld = at[L::kLd] + first, *lt = at[L::kLt] + first, *rd = at[L::kRd] + first;
+  const float *rt = at[L::kRt] + first, *size = at[L::kSize] + first;
+  for (int i = 0; i < count; ++i)
+    kept[i] = is_kept(ax[i], ay[i], az[i], bx[i], by[i], bz[i], size[i], lx[i], ly[i], lz[i], ld[i], lt[i],
+                      rx[i], ry[i], rz[i], rd[i], rt[i], r);
+}
+
+/// Tolerance for a float sum n·d + offset, |d| ≤ `reach`.
+float float_tolerance(const FacePlane& plane, double offset, double reach) {
+  return static_cast<float>(plane.tolerance + 0x1p-20 * (std::abs(offset) + reach));
 }
 
 }  // namespace
 
-void EdgeList::assign(const Band& band, std::span<const std::uint32_t> edges) {
-  size_ = edges.size();
-  for (auto& c : columns_) c.resize(size_);
-  for (std::size_t i = 0; i < size_; ++i) {
-    const BandEdge& e = band.edges[edges[i]];
-    const double row[kColumns] = {e.a.x,
-                                  e.a.y,
-                                  e.a.z,
-                                  e.b.x,
-                                  e.b.y,
-                                  e.b.z,
-                                  e.left.normal.x,
-                                  e.left.normal.y,
-                                  e.left.normal.z,
-                                  e.left.offset,
-                                  e.left.tolerance,
-                                  e.right.normal.x,
-                                  e.right.normal.y,
-                                  e.right.normal.z,
-                                  e.right.offset,
-                                  e.right.tolerance,
-                                  e.has_right ? 1.0 : 0.0};
-    for (int c = 0; c < kColumns; ++c) columns_[c][i] = row[c];
+void EdgeList::assign(const Band& band, std::span<const std::uint32_t> edges, const Vec3& middle) {
+  middle_ = middle;
+  extent_ = band.extent;
+  edges_.clear();
+  for (const std::uint32_t e : edges) edges_.push_back(&band.edges[e]);
+  for (auto& c : columns_) c.assign(edges_.size(), 0.0f);
+  const auto put_plane = [&](const FacePlane& plane, std::size_t i, Column first) {
+    const double offset = plane.value(middle);
+    for (int k = 0; k < 3; ++k) columns_[first + k][i] = static_cast<float>(plane.normal[k]);
+    columns_[first + 3][i] = static_cast<float>(offset);
+    columns_[first + 4][i] = float_tolerance(plane, offset, 4.0 * band.extent);
+  };
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const BandEdge& e = *edges_[i];
+    const Vec3 a = e.a - middle, b = e.b - middle;
+    for (int k = 0; k < 3; ++k) {
+      columns_[kAx + k][i] = static_cast<float>(a[k]);
+      columns_[kBx + k][i] = static_cast<float>(b[k]);
+    }
+    columns_[kSize][i] = static_cast<float>(std::max(largest_component(a), largest_component(b)));
+    put_plane(e.left, i, kLx);
+    if (e.has_right) put_plane(e.right, i, kRx);
+    if (!e.has_right) columns_[kRt][i] = std::numeric_limits<float>::infinity();
   }
 }
 
-void Projections::resize(std::size_t n) {
-  if (ax.size() >= n) return;
-  for (auto* v : {&ax, &ay, &bx, &by}) v->resize(n);
-  jump.resize(n);
-  near.resize(n);
+std::size_t EdgeList::bytes() const {
+  return edges_.capacity() * sizeof(edges_[0]) + kColumns * columns_[0].capacity() * sizeof(float);
+}
+
+void sift(const EdgeList& list, const Vec3& x, std::vector<std::uint32_t>& out) {
+  constexpr std::size_t kChunk = 512;
+  const Columns columns(list);
+  const FloatReceiver receiver = float_receiver(list, x);
+  alignas(64) std::int32_t kept[kChunk];
+  out.resize(list.size());
+  std::size_t found = 0;
+  for (std::size_t first = 0; first < list.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, list.size() - first);
+    sift_range(columns, first, static_cast<int>(count), receiver, kept);
+    for (std::size_t i = 0; i < count; ++i) {
+      out[found] = static_cast<std::uint32_t>(first + i);
+      found += static_cast<std::size_t>(kept[i]);
+    }
+  }
+  out.resize(found);
+}
+
+bool sift_one(const EdgeList& list, std::size_t i, const Vec3& x) {
+  std::int32_t kept = 0;
+  sift_range(Columns(list), i, 1, float_receiver(list, x), &kept);
+  return kept != 0;
 }
 
 double certificate_slack(double extent) {
   return 1e-6 + 0x1p-26 * extent;
 }
 
-void project_edges(const EdgeList& list, const Vec3& x, double slack, Projections& out) {
-  out.resize(list.size());
-  project_range(Columns(list), list.size(), x.x, x.y, x.z, (1.0 + slack) * (1.0 + slack), out.ax.data(),
-                out.ay.data(), out.bx.data(), out.by.data(), out.jump.data(), out.near.data());
+Projection see(const BandEdge& e, const Vec3& x, double slack) {
+  const double left = e.left.value(x), right = e.has_right ? e.right.value(x) : 0.0;
+  const int jump = (left > 0.0 ? 1 : -1) + (e.has_right ? (right > 0.0 ? -1 : 1) : 0);
+  const bool sure = std::abs(left) > e.left.tolerance && std::abs(right) > e.right.tolerance;
+  if (jump == 0 && sure) return {{}, false};
+
+  // Where an end is not below the receiver, the point of the edge that is so by a hair.
+  const double least = kHair * x.z;
+  double wa = x.z - e.a.z, wb = x.z - e.b.z;
+  if (!(wa > least) && !(wb > least)) return {{}, false};
+  glm::dvec2 a(e.a), b(e.b);
+  const double wa0 = wa, wb0 = wb;
+  if (!(wa > least)) a += ((least - wa0) / (wb0 - wa0)) * (glm::dvec2(e.b) - a), wa = least;
+  if (!(wb > least)) b += ((least - wb0) / (wa0 - wb0)) * (glm::dvec2(e.a) - b), wb = least;
+  const glm::dvec2 from(x);
+  const glm::dvec2 pa = from + (a - from) * (x.z / wa), pb = from + (b - from) * (x.z / wb);
+
+  // Nearest point of the segment to the disk's centre.
+  const glm::dvec2 s = pb - pa;
+  const double length2 = glm::dot(s, s), along = -glm::dot(pa, s);
+  const double t = along <= 0.0 ? 0.0 : (along >= length2 ? 1.0 : along / length2);
+  const glm::dvec2 nearest = pa + t * s;
+  return {{pa, pb, jump}, glm::dot(nearest, nearest) < (1.0 + slack) * (1.0 + slack)};
 }
 
-void project_edge(const EdgeList& list, std::size_t i, const Vec3& x, double slack, Projections& out) {
-  out.resize(list.size());
-  put(see(Columns(list), i, x.x, x.y, x.z, (1.0 + slack) * (1.0 + slack)), i, out.ax.data(), out.ay.data(),
-      out.bx.data(), out.by.data(), out.jump.data(), out.near.data());
-}
-
-void select_segments(const Projections& p, std::size_t count, const Chord& horizon, Sight& out) {
+void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
+  sift(list, x, out.sifted);
   out.segments.clear();
   out.certain = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!p.near[i]) continue;
+  for (const std::uint32_t i : out.sifted) {
+    const Projection p = see(list[i], x, slack);
+    if (!p.near) continue;
     out.certain = false;
-    if (p.jump[i] == 0.0f) continue;
-    const glm::dvec2 a{p.ax[i], p.ay[i]}, b{p.bx[i], p.by[i]};
-    if (!(height(horizon, a) > 0.0) && !(height(horizon, b) > 0.0)) continue;
-    out.segments.push_back({a, b, static_cast<int>(p.jump[i])});
+    if (p.segment.jump == 0) continue;
+    if (!(height(horizon, p.segment.a) > 0.0) && !(height(horizon, p.segment.b) > 0.0)) continue;
+    out.segments.push_back(p.segment);
   }
 }
 

@@ -7,11 +7,17 @@
 //
 // Certificate: if no edge of the band meets the disk, seen from x, the number of faces between x and the disk
 // is the same for all of its points; x is wholly lit or wholly in umbra, and one ray tells which. Edges are
-// only dismissed with a margin that covers rounding: `near` counts those that come within `slack` of the disk
-// and whose jump is not certainly 0. Projection magnifies errors of coordinates, at most u M each, by
-// x.z/(x.z
-// - p.z); the point of the segment that is nearest to the disk, computed from ends at most 2^24 M away, is
-// off by less than 2^-53 2^24 M times a small number: slack = 1e-6 + 2^-26 M bounds both.
+// only dismissed with a margin that covers rounding, in two passes:
+//
+// 1. `sift`, in float, vectorised over edges, in coordinates that start at the tile's middle. With an edge's
+//    ends at most s from there, each coordinate is off by 2^-24 s, and projection with w = x.z - p.z, g =
+//    x.z/w makes that at most 2^-24 (s g)(2 + s/w) times a small number, plus 2^-24 M for x itself: an edge
+//    is dismissed where it stays 2^-19 (M + s g (1 + s/w)) outside of the disk, w the smaller one of its
+//    ends, or where both faces keep their sides by the planes' tolerances and 2^-20 of the sum's terms.
+// 2. `see`, in double, for what is left: it is near where it comes within `slack` of the disk and its jump is
+//    not certainly 0. Errors of coordinates, at most u M each, grow by x.z/w; the point of the segment that
+//    is nearest to the disk, computed from ends at most 2^24 M away, is off by less than 2^-53 2^24 M times a
+//    small number: slack = 1e-6 + 2^-26 M bounds both.
 #pragma once
 
 #include <array>
@@ -24,12 +30,18 @@
 
 namespace penumbra::detail {
 
-/// A tile's edges, one array a number, so that loops over edges vectorise.
+/// A tile's edges as the two passes want them.
 class EdgeList {
  public:
-  void assign(const Band& band, std::span<const std::uint32_t> edges);
-  std::size_t size() const { return size_; }
+  /// `middle`: where the float coordinates start. Cost O(edges).
+  void assign(const Band& band, std::span<const std::uint32_t> edges, const Vec3& middle);
+  std::size_t size() const { return edges_.size(); }
+  const BandEdge& operator[](std::size_t i) const { return *edges_[i]; }
+  const Vec3& middle() const { return middle_; }
+  double extent() const { return extent_; }
+  std::size_t bytes() const;
 
+  /// One array a number.
   enum Column {
     kAx,
     kAy,
@@ -37,6 +49,7 @@ class EdgeList {
     kBx,
     kBy,
     kBz,
+    kSize,
     kLx,
     kLy,
     kLz,
@@ -47,15 +60,22 @@ class EdgeList {
     kRz,
     kRd,
     kRt,
-    kRight,
     kColumns
   };
-  const double* column(Column c) const { return columns_[c].data(); }
+  const float* column(Column c) const { return columns_[c].data(); }
 
  private:
-  std::size_t size_ = 0;
-  std::array<std::vector<double>, kColumns> columns_;
+  std::vector<const BandEdge*> edges_;
+  std::array<std::vector<float>, kColumns> columns_;
+  Vec3 middle_{0.0};
+  double extent_ = 1.0;
 };
+
+/// Which edges of the list may be near, in ascending order. Cost: some 70 flops an edge, vectorised; compiled
+/// for several instruction sets with the same result.
+void sift(const EdgeList& list, const Vec3& x, std::vector<std::uint32_t>& out);
+/// Whether edge `i` is kept, computed for it alone without vectors: what tests compare with.
+bool sift_one(const EdgeList& list, std::size_t i, const Vec3& x);
 
 /// A segment in the plane of the disk, seen from the light's front; left minus right of a → b.
 struct Segment {
@@ -63,26 +83,21 @@ struct Segment {
   int jump;
 };
 
-/// What the projection found for every edge of a list (arrays at least as long as the list).
-struct Projections {
-  void resize(std::size_t n);
-  std::vector<double> ax, ay, bx, by;
-  std::vector<float> jump;         ///< left minus right, -2 to 2
-  std::vector<std::uint8_t> near;  ///< may meet the disk with a jump, by the certificate's margin
+struct Projection {
+  Segment segment;
+  bool near;  ///< may meet the disk with a jump, by the certificate's margin
 };
-
-/// Cost: some 80 flops an edge, vectorised; compiled for several instruction sets with the same result.
-void project_edges(const EdgeList& list, const Vec3& x, double slack, Projections& out);
-/// The same for edge `i` alone, without vectors: what tests compare with.
-void project_edge(const EdgeList& list, std::size_t i, const Vec3& x, double slack, Projections& out);
+/// An end that two edges share projects to the same bits in both.
+Projection see(const BandEdge& edge, const Vec3& x, double slack);
 
 double certificate_slack(double extent);
 
-/// The segments of one receiver: near, with a jump, and not wholly below its horizon.
+/// What one receiver sees: the segments that are near, have a jump, and are not wholly below its horizon.
 struct Sight {
+  std::vector<std::uint32_t> sifted;
   std::vector<Segment> segments;
   bool certain = false;  ///< no edge of the list meets the disk
 };
-void select_segments(const Projections& projections, std::size_t count, const Chord& horizon, Sight& out);
+void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out);
 
 }  // namespace penumbra::detail

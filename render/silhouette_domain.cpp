@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 namespace penumbra::detail {
@@ -9,8 +10,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double half_width(double y) {
-  return std::sqrt(std::max(0.0, (1.0 - y) * (1.0 + y)));
+double cross(const glm::dvec2& p, const glm::dvec2& q) {
+  return p.x * q.y - p.y * q.x;
 }
 
 /// Angle in [0, 2π).
@@ -19,6 +20,10 @@ double turn(double angle) {
 }
 
 }  // namespace
+
+double DiskPart::half_width(double y) {
+  return std::sqrt(std::max(0.0, (1.0 - y) * (1.0 + y)));
+}
 
 /// The chord runs from B = -δn - h d to A = -δn + h d, with d = (n.y, -n.x), so that D is on its left.
 DiskPart::DiskPart(const Chord& horizon) : horizon_(horizon), cut_(horizon.delta < 1.0), area_(kPi) {
@@ -35,6 +40,7 @@ DiskPart::DiskPart(const Chord& horizon) : horizon_(horizon), cut_(horizon.delta
   chord_on_left_ = n.x > 0.0 || (n.x == 0.0 && n.y > 0.0);
   arc_start_ = std::atan2(a.y, a.x);
   middle_height_ = foot.y;
+  corners_ = {a.y, b.y};
   bottom_on_arc_ = delta - n.y > 0.0;
   if (!bottom_on_arc_) bottom_ = std::min(a.y, b.y);
   if (!(delta + n.y > 0.0)) top_ = std::max(a.y, b.y);
@@ -44,20 +50,34 @@ DiskPart::DiskPart(const Chord& horizon) : horizon_(horizon), cut_(horizon.delta
     bottom_walk_ = delta * half_;
 }
 
-double DiskPart::left(double y) const {
-  const double rim = -half_width(y);
-  if (!cut_ || !(horizon_.normal.x > 0.0)) return rim;
-  return std::max(rim, -(horizon_.normal.y * y + horizon_.delta) / horizon_.normal.x);
+std::pair<double, double> DiskPart::span(double y, double half_width) const {
+  double left = -half_width, right = half_width;
+  if (cut_ && horizon_.normal.x != 0.0) {
+    const double chord = -(horizon_.normal.y * y + horizon_.delta) / horizon_.normal.x;
+    if (horizon_.normal.x > 0.0)
+      left = std::max(left, chord);
+    else
+      right = std::min(right, chord);
+  }
+  return {left, right};
 }
 
-double DiskPart::right(double y) const {
-  const double rim = half_width(y);
-  if (!cut_ || !(horizon_.normal.x < 0.0)) return rim;
-  return std::min(rim, -(horizon_.normal.y * y + horizon_.delta) / horizon_.normal.x);
+double DiskPart::distance_to_boundary(const glm::dvec2& from, const glm::dvec2& direction) const {
+  const double along = glm::dot(from, direction);
+  const double rim = -along + std::sqrt(std::max(0.0, along * along + 1.0 - glm::dot(from, from)));
+  const double descent = -glm::dot(horizon_.normal, direction);
+  return descent > 0.0 ? std::min(rim, height(horizon_, from) / descent) : rim;
 }
 
 bool DiskPart::on_left(const Event& e) const {
   return e.on_chord ? chord_on_left_ : e.at.x < 0.0;
+}
+
+bool DiskPart::comes_first(const Event& a, const Event& b) const {
+  const bool left = on_left(a);
+  if (left != on_left(b)) return !left;
+  if (a.on_chord && b.on_chord) return cross(horizon_.normal, a.at - b.at) > 0.0;
+  return left ? a.at.y > b.at.y : a.at.y < b.at.y;
 }
 
 /// From the chord's start B: along the chord the integral is δ/2 times the length, along the arc half the

@@ -6,7 +6,9 @@
 // on, the number of hiding faces changes there by `change`.
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
+#include <utility>
 
 #include "render/disk_area.h"
 
@@ -24,6 +26,7 @@ struct Event {
   glm::dvec2 at;
   bool on_chord;
   int change;
+  double walked = 0.0;  ///< DiskPart::walked
 };
 
 class DiskPart {
@@ -36,11 +39,18 @@ class DiskPart {
   double area() const { return area_; }  ///< π for the whole disk
   double bottom() const { return bottom_; }
   double top() const { return top_; }
-  /// Ends of the horizontal line at height y within D; empty where left ≥ right.
-  double left(double y) const;
-  double right(double y) const;
+  static double half_width(double y);  ///< of the unit disk
+  /// Ends of D's horizontal line at height y, the rim being ±half_width; empty where first ≥ second. With the
+  /// mean of half_width over a slab these are means of D's ends, where the slab holds no corner of D.
+  std::pair<double, double> span(double y, double half_width) const;
+  /// Heights of the two corners; those of the whole disk are its poles.
+  std::array<double, 2> corner_heights() const { return corners_; }
+  /// From a point of D in a unit direction.
+  double distance_to_boundary(const glm::dvec2& from, const glm::dvec2& direction) const;
   /// The side of the boundary on which an event lies.
   bool on_left(const Event& e) const;
+  /// Whether the walk meets `a` before `b`.
+  bool comes_first(const Event& a, const Event& b) const;
   /// ∫ (x dy - y dx)/2 along the boundary from the lowest point to the event.
   double walked(const Event& e) const;
   /// A point well inside.
@@ -54,6 +64,7 @@ class DiskPart {
   bool cut_;
   bool chord_on_left_ = false, bottom_on_arc_ = true;
   double area_, bottom_ = -1.0, top_ = 1.0;
+  std::array<double, 2> corners_{-1.0, 1.0};
   double half_ = 0.0;           ///< half the chord's length
   double arc_start_ = 0.0;      ///< angle at which the arc begins, where the chord ends
   double middle_height_ = 0.0;  ///< of the chord

@@ -33,6 +33,7 @@ class CasterBand {
     });
   }
 
+  Bounds box() const { return bounds_of(points_); }
   std::size_t mixed_faces() const { return classes_.mixed; }
 
   void append_to(Band& band) const {
@@ -118,6 +119,7 @@ Band make_band(const Scene& scene, const UnitLight& light) {
   for (const SceneObject& object : scene.objects) {
     if (!object.casts || object.mesh.empty()) continue;
     casters.emplace_back(object.mesh, scene.light, light);
+    band.casters.push_back(casters.back().box());
     band.faces += object.mesh.triangles().size();
     band.mixed_faces += casters.back().mixed_faces();
     band.mesh_edges += object.mesh.edges().size();

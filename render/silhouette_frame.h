@@ -57,7 +57,8 @@ inline int jump_at(const BandEdge& e, const Vec3& x) {
 
 struct Band {
   std::vector<BandEdge> edges;
-  double extent = 1.0;  ///< largest absolute coordinate in the scene, in light radii (at least 1)
+  std::vector<Bounds> casters;  ///< box of each, in the light's frame
+  double extent = 1.0;          ///< largest absolute coordinate in the scene, in light radii (at least 1)
   std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, cut_edges = 0;
 };
 

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/vector_clones.h"
+
 namespace penumbra::detail {
 namespace {
 
@@ -17,7 +19,7 @@ struct Directions {
       y[k] = std::sin(2.0 * std::numbers::pi * k / kShaftSides);
     }
   }
-  std::array<double, kShaftSides> x, y;
+  alignas(64) std::array<double, kShaftSides> x, y;
 };
 const Directions kDirections;
 
@@ -54,6 +56,22 @@ std::vector<BandEdge> along_curve(const std::vector<BandEdge>& edges) {
   return sorted;
 }
 
+/// The largest slopes that receivers ask for, direction by direction.
+PENUMBRA_VECTOR_CLONES
+void tighten_slopes(const double* x, const double* y, const double* z, int count, double* __restrict slope) {
+  const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
+  alignas(64) double most[kShaftSides];
+  for (int k = 0; k < kShaftSides; ++k) most[k] = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < count; ++i) {
+    const double per_z = 1.0 / z[i], px = x[i] * per_z, py = y[i] * per_z;
+    for (int k = 0; k < kShaftSides; ++k) {
+      const double s = cosine[k] * px + sine[k] * py - per_z;
+      most[k] = s > most[k] ? s : most[k];
+    }
+  }
+  for (int k = 0; k < kShaftSides; ++k) slope[k] = most[k];
+}
+
 /// Half the range of n·p over a box of the given half size.
 double reach(const Vec3& n, const Vec3& half) {
   return std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
@@ -62,24 +80,29 @@ double reach(const Vec3& n, const Vec3& half) {
 }  // namespace
 
 Shaft::Shaft(const TileReceivers& receivers, double extent) : margin_(0x1p-44 * extent) {
-  slope_.fill(-std::numeric_limits<double>::infinity());
-  Bounds box, normals;
-  for (int i = 0; i < receivers.count; ++i) {
-    const double per_z = 1.0 / receivers.z[i];
-    for (int k = 0; k < kShaftSides; ++k)
-      slope_[k] = std::max(
-          slope_[k], (kDirections.x[k] * receivers.x[i] + kDirections.y[k] * receivers.y[i] - 1.0) * per_z);
-    box.add(receivers.at(i));
-    normals.add(receivers.normal[i]);
-  }
+  Bounds box;
+  for (int i = 0; i < receivers.count; ++i) box.add(receivers.at(i));
   top_ = box.high.z;
   middle_ = box.center();
   half_ = 0.5 * (box.high - box.low);
+  for (int k = 0; k < kShaftSides; ++k) {
+    const double x = kDirections.x[k], y = kDirections.y[k];
+    const double beyond = x * middle_.x + y * middle_.y + std::abs(x) * half_.x + std::abs(y) * half_.y - 1.0;
+    slope_[k] = beyond / (beyond > 0.0 ? box.low.z : box.high.z);
+  }
+}
+
+void Shaft::tighten(const TileReceivers& receivers) {
+  tighten_slopes(receivers.x.data(), receivers.y.data(), receivers.z.data(), receivers.count, slope_.data());
   horizon_ = receivers.horizon_cuts;
+  if (!horizon_) return;
+  Bounds normals;
+  for (int i = 0; i < receivers.count; ++i) {
+    normals.add(receivers.normal[i]);
+    lowest_ = std::min(lowest_, glm::dot(receivers.normal[i], receivers.at(i) - middle_));
+  }
   normal_low_ = normals.low;
   normal_high_ = normals.high;
-  for (int i = 0; i < receivers.count; ++i)
-    lowest_ = std::min(lowest_, glm::dot(receivers.normal[i], receivers.at(i) - middle_));
 }
 
 double Shaft::side(int k, const Vec3& p) const {
@@ -216,6 +239,10 @@ void BandTree::visit(const Shaft& shaft, std::size_t level, std::size_t node,
     const BandEdge& e = band_.edges[i];
     if (!shaft.never_silhouette(e) && !shaft.misses(e)) out.push_back(static_cast<std::uint32_t>(i));
   }
+}
+
+bool BandTree::misses(const Shaft& shaft) const {
+  return levels_.back().empty() || shaft.misses(levels_.back()[0].low, levels_.back()[0].high);
 }
 
 void BandTree::gather(const Shaft& shaft, std::vector<std::uint32_t>& out) const {

@@ -37,7 +37,10 @@ struct TileReceivers {
 /// rounding keeps an edge rather than losing it.
 class Shaft {
  public:
+  /// By the box of the receivers: loose, but cheap.
   Shaft(const TileReceivers& receivers, double extent);
+  /// By the receivers themselves.
+  void tighten(const TileReceivers& receivers);
 
   bool misses(const Vec3& low, const Vec3& high) const;
   bool misses(const BandEdge& edge) const;
@@ -52,7 +55,7 @@ class Shaft {
   double side(int k, const Vec3& p) const;
   bool below_horizons(const Vec3& p) const;
 
-  std::array<double, kShaftSides> slope_;
+  alignas(64) std::array<double, kShaftSides> slope_;
   double top_, margin_;
   Vec3 middle_, half_;  ///< box of the receivers
   bool horizon_ = false;
@@ -65,6 +68,8 @@ class BandTree {
  public:
   /// Reorders the band's edges along the curve. Cost O(E log E).
   explicit BandTree(Band& band);
+  /// True where `gather` finds nothing for certain, by the whole band's box.
+  bool misses(const Shaft& shaft) const;
   /// Appends to `out`, in ascending order.
   void gather(const Shaft& shaft, std::vector<std::uint32_t>& out) const;
   std::size_t bytes() const;

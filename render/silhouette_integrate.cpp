@@ -60,8 +60,9 @@ void cut_segments(std::span<const Segment> segments, const DiskPart& part, Cut& 
   int changes = 0;
   const auto cross_boundary = [&](const End& end, int change) {
     if (!end.moved) return;
-    const Event event{end.at, end.on_chord, change};
-    sum -= change * part.walked(event);
+    Event event{end.at, end.on_chord, change};
+    event.walked = part.walked(event);
+    sum -= change * event.walked;
     changes += change;
     out.events.push_back(event);
   };
@@ -79,7 +80,7 @@ void cut_segments(std::span<const Segment> segments, const DiskPart& part, Cut& 
 }
 
 bool is_one_chain(const Cut& cut) {
-  if (cut.events.size() > 2) return false;
+  if (cut.events.size() != 2) return false;
   dvec2 general(0.0);
   const int size = std::abs(cut.segments.empty() ? 0 : cut.segments.front().jump);
   for (const Segment& s : cut.segments) {

@@ -4,6 +4,8 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define PENUMBRA_VECTOR_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#define PENUMBRA_INLINE __attribute__((always_inline)) inline  // into clones, or they stay scalar
 #else
 #define PENUMBRA_VECTOR_CLONES
+#define PENUMBRA_INLINE inline
 #endif
