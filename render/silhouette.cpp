@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
 #include <glm/geometric.hpp>
 #include <mutex>
@@ -22,23 +23,43 @@ using namespace detail;
 
 constexpr double kPi = std::numbers::pi;
 
+constexpr std::size_t kMostDepth = 4;   // a tile is halved at most that often
+constexpr std::size_t kShortList = 24;  // edges; shorter lists are not narrowed
+
 /// What one thread keeps between tiles, and what it has counted.
 struct Workspace {
-  TileReceivers receivers;
-  std::array<Chord, kTileReceivers> horizons;
-  std::array<Fused, kTileReceivers> fused;
-  std::array<double, kTileReceivers> disk_area;
-  std::array<bool, kTileReceivers> certain;
-  bool reached = false;  ///< some caster's box is in reach of the tile's shaft
+  std::vector<Receiver> receivers;
+  std::vector<Fused> fused;   ///< one a receiver
+  std::vector<char> certain;  ///< one a receiver
   std::vector<std::uint32_t> edges;
-  EdgeList list;
+  std::array<EdgeList, kMostDepth + 1> lists;  ///< of the tile, of the half at hand, of its half, …
   Sight sight;
   Cut cut;
   Fuser fuser;
   std::vector<RayTask> tasks, second_tasks;
   std::vector<std::uint32_t> fallback, open;
   SilhouetteCounts counts;
+
+  std::size_t bytes() const {
+    std::size_t sum =
+        receivers.capacity() * (sizeof(Receiver) + sizeof(Fused)) + edges.capacity() * sizeof(edges[0]);
+    for (const EdgeList& list : lists) sum += list.bytes();
+    return sum;
+  }
 };
+
+/// Sorts receivers into two halves along the longest side of their box; returns where the second begins.
+std::size_t halve(std::span<Receiver> receivers) {
+  Bounds box;
+  for (const Receiver& r : receivers) box.add(r.x);
+  const Vec3 size = box.high - box.low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  const std::size_t middle = receivers.size() / 2;
+  std::nth_element(receivers.begin(), receivers.begin() + static_cast<std::ptrdiff_t>(middle),
+                   receivers.end(),
+                   [axis](const Receiver& a, const Receiver& b) { return a.x[axis] < b.x[axis]; });
+  return middle;
+}
 
 /// One frame: everything that tiles share, and the result they write to (each its own pixels).
 class Evaluation {
@@ -57,22 +78,15 @@ class Evaluation {
         slack_(certificate_slack(band.extent)),
         out_(out) {}
 
-  void tile(int column, int row, Workspace& w) const {
-    collect(column, row, w);
-    if (w.receivers.count == 0) return;
-    ++w.counts.tiles;
-    gather(w);
-    if (!w.reached) return light_up(w);
-    for (int i = 0; i < w.receivers.count; ++i) evaluate(i, w);
-    decide(w);
-  }
+  void tile(int column, int row, Workspace& w) const;
 
  private:
   void collect(int column, int row, Workspace& w) const;
   void add_receiver(std::size_t pixel, Workspace& w) const;
-  void gather(Workspace& w) const;
-  void evaluate(int i, Workspace& w) const;
-  void integrate(int i, const DiskPart& part, Workspace& w) const;
+  bool is_reached(const Shaft& shaft) const;
+  void descend(std::size_t first, std::size_t last, std::size_t depth, Workspace& w) const;
+  void evaluate(std::size_t i, const EdgeList& list, Workspace& w) const;
+  void integrate(std::size_t i, const DiskPart& part, Workspace& w) const;
   void decide(Workspace& w) const;
   void light_up(Workspace& w) const;
 
@@ -87,9 +101,55 @@ class Evaluation {
   SilhouetteResult& out_;
 };
 
+void Evaluation::tile(int column, int row, Workspace& w) const {
+  collect(column, row, w);
+  if (w.receivers.empty()) return;
+  ++w.counts.tiles;
+  w.counts.receivers += w.receivers.size();
+  Shaft shaft(w.receivers, band_.extent);
+  if (!is_reached(shaft)) return light_up(w);
+  w.edges.clear();
+  if (!tree_.misses(shaft)) {
+    shaft.tighten(w.receivers);
+    tree_.gather(shaft, w.edges);
+  }
+  w.counts.listed_edges += w.edges.size();
+  w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
+  w.lists[0].assign(band_, w.edges, shaft.middle());
+  w.fused.resize(w.receivers.size());
+  w.certain.resize(w.receivers.size());
+  w.tasks.clear();
+  descend(0, w.receivers.size(), 0, w);
+  decide(w);
+}
+
+/// The box of some caster is between the shaft's receivers and the light.
+bool Evaluation::is_reached(const Shaft& shaft) const {
+  return std::any_of(band_.casters.begin(), band_.casters.end(),
+                     [&](const Bounds& box) { return !shaft.misses(box.low, box.high); });
+}
+
+/// Receivers first to last with the list of this depth: one by one where the list is short, else in two
+/// halves that lie apart, each with what is left of the list.
+void Evaluation::descend(std::size_t first, std::size_t last, std::size_t depth, Workspace& w) const {
+  const EdgeList& list = w.lists[depth];
+  if (list.size() <= kShortList || depth == kMostDepth || last - first < 4) {
+    for (std::size_t i = first; i < last; ++i) evaluate(i, list, w);
+    return;
+  }
+  const std::size_t middle = halve(std::span(w.receivers).subspan(first, last - first)) + first;
+  for (const auto& [from, to] : {std::pair(first, middle), std::pair(middle, last)}) {
+    const auto half = std::span<const Receiver>(w.receivers).subspan(from, to - from);
+    Shaft shaft(half, band_.extent);
+    shaft.tighten(half);
+    narrow(list, shaft, w.edges);
+    w.lists[depth + 1].assign(list, w.edges, shaft.middle());
+    descend(from, to, depth + 1, w);
+  }
+}
+
 void Evaluation::collect(int column, int row, Workspace& w) const {
-  w.receivers.count = 0;
-  w.receivers.horizon_cuts = false;
+  w.receivers.clear();
   const int x1 = std::min((column + 1) * kTile, surface_.width),
             y1 = std::min((row + 1) * kTile, surface_.height);
   for (int y = row * kTile; y < y1; ++y)
@@ -118,40 +178,18 @@ void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
     out_.visibility[pixel] = 0.0f;
     return;
   }
-  TileReceivers& r = w.receivers;
-  const int i = r.count++;
-  r.x[i] = x.x, r.y[i] = x.y, r.z[i] = x.z;
-  r.normal[i] = n;
-  r.pixel[i] = static_cast<std::uint32_t>(pixel);
-  w.horizons[i] = cuts ? chord_of_plane(n, x, 1.0) : no_horizon();
-  r.horizon_cuts = r.horizon_cuts || cuts;
+  w.receivers.push_back(
+      {x, n, cuts ? chord_of_plane(n, x, 1.0) : no_horizon(), cuts, static_cast<std::uint32_t>(pixel)});
 }
 
-void Evaluation::gather(Workspace& w) const {
-  w.edges.clear();
-  Shaft shaft(w.receivers, band_.extent);
-  w.reached = !std::all_of(band_.casters.begin(), band_.casters.end(),
-                           [&](const Bounds& box) { return shaft.misses(box.low, box.high); });
-  if (w.reached && !tree_.misses(shaft)) {
-    shaft.tighten(w.receivers);
-    tree_.gather(shaft, w.edges);
-  }
-  w.list.assign(band_, w.edges, shaft.middle());
-  w.tasks.clear();
-  w.second_tasks.clear();
-  w.counts.receivers += static_cast<std::size_t>(w.receivers.count);
-  w.counts.listed_edges += w.edges.size();
-  w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
-}
-
-void Evaluation::integrate(int i, const DiskPart& part, Workspace& w) const {
+void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) const {
   cut_segments(w.sight.segments, part, w.cut);
   if (!w.cut.closed) {
-    w.fallback.push_back(w.receivers.pixel[i]);
+    w.fallback.push_back(w.receivers[i].pixel);
     return;
   }
   w.fused[i] = w.fuser.fuse(w.cut, part, options_.rows);
-  w.tasks.push_back({w.receivers.pixel[i], w.fused[i].aims[0], false, i});
+  w.tasks.push_back({w.receivers[i].pixel, w.fused[i].aims[0], false, i});
   w.counts.segments += w.cut.segments.size();
   ++w.counts.integrated;
   w.counts.slabs += w.fused[i].way == Fusion::kSlabs ? 1 : 0;
@@ -159,35 +197,31 @@ void Evaluation::integrate(int i, const DiskPart& part, Workspace& w) const {
   w.counts.overlapping += w.fused[i].levels > 2 ? 1 : 0;
 }
 
-void Evaluation::evaluate(int i, Workspace& w) const {
-  const DiskPart part(w.horizons[i]);
-  w.sight.segments.clear();
-  w.sight.certain = true;
-  if (w.list.size() > 0) {
-    look(w.list, w.receivers.at(i), w.horizons[i], slack_, w.sight);
-    w.counts.projected_edges += w.list.size();
-  }
+void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
+  const Receiver& r = w.receivers[i];
+  const DiskPart part(r.horizon);
+  look(list, r.x, r.horizon, slack_, w.sight);
+  w.counts.projected_edges += list.size();
   // Below a horizon that cuts the disk edges may have been left out: nothing is certified there.
   w.certain[i] = w.sight.certain && !part.is_cut();
   if (w.sight.segments.empty()) {
     const glm::dvec2 middle = part.middle();
     w.fused[i] = {part.area(), 1, {middle, middle}};
-    w.tasks.push_back({w.receivers.pixel[i], middle, false, i});
+    w.tasks.push_back({w.receivers[i].pixel, middle, false, i});
   } else if (options_.integrate) {
     integrate(i, part, w);
   } else {
-    w.open.push_back(w.receivers.pixel[i]);
+    w.open.push_back(w.receivers[i].pixel);
   }
 }
 
 /// No caster is between the tile and the light.
 void Evaluation::light_up(Workspace& w) const {
-  for (int i = 0; i < w.receivers.count; ++i) {
-    const std::uint32_t pixel = w.receivers.pixel[i];
-    out_.visibility[pixel] = static_cast<float>(half_plane_area(w.horizons[i].delta));
-    out_.region[pixel] = 0;
+  for (const Receiver& r : w.receivers) {
+    out_.visibility[r.pixel] = static_cast<float>(half_plane_area(r.horizon.delta));
+    out_.region[r.pixel] = 0;
   }
-  w.counts.certified_lit += static_cast<std::size_t>(w.receivers.count);
+  w.counts.certified_lit += w.receivers.size();
 }
 
 /// The rays of a tile, and what they make of its areas.
@@ -200,6 +234,7 @@ void Evaluation::decide(Workspace& w) const {
     out_.region[task.pixel] = task.free ? 0 : 2;
     ++(task.free ? w.counts.certified_lit : w.counts.certified_umbra);
   };
+  w.second_tasks.clear();
   for (const RayTask& task : w.tasks) {
     const Fused& f = w.fused[task.receiver];
     if (task.free || f.aims[1] == f.aims[0])
@@ -287,6 +322,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   std::vector<std::uint32_t> fallback;
   for (const Workspace& w : spaces) {
     out.counts += w.counts;
+    out.counts.bytes += w.bytes();
     fallback.insert(fallback.end(), w.fallback.begin(), w.fallback.end());
     out.open.insert(out.open.end(), w.open.begin(), w.open.end());
   }
@@ -301,7 +337,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   out.counts.mesh_edges = band.mesh_edges;
   out.counts.band_edges = band.edges.size();
   out.counts.cut_edges = band.cut_edges;
-  out.counts.bytes = tree.bytes();
+  out.counts.bytes += tree.bytes();
   out.stages = clock.stages();
   return out;
 }

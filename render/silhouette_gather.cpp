@@ -58,12 +58,13 @@ std::vector<BandEdge> along_curve(const std::vector<BandEdge>& edges) {
 
 /// The largest slopes that receivers ask for, direction by direction.
 PENUMBRA_VECTOR_CLONES
-void tighten_slopes(const double* x, const double* y, const double* z, int count, double* __restrict slope) {
+void tighten_slopes(const Receiver* receivers, std::size_t count, double* __restrict slope) {
   const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
   alignas(64) double most[kShaftSides];
   for (int k = 0; k < kShaftSides; ++k) most[k] = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < count; ++i) {
-    const double per_z = 1.0 / z[i], px = x[i] * per_z, py = y[i] * per_z;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3& p = receivers[i].x;
+    const double per_z = 1.0 / p.z, px = p.x * per_z, py = p.y * per_z;
     for (int k = 0; k < kShaftSides; ++k) {
       const double s = cosine[k] * px + sine[k] * py - per_z;
       most[k] = s > most[k] ? s : most[k];
@@ -79,9 +80,9 @@ double reach(const Vec3& n, const Vec3& half) {
 
 }  // namespace
 
-Shaft::Shaft(const TileReceivers& receivers, double extent) : margin_(0x1p-44 * extent) {
+Shaft::Shaft(std::span<const Receiver> receivers, double extent) : margin_(0x1p-44 * extent) {
   Bounds box;
-  for (int i = 0; i < receivers.count; ++i) box.add(receivers.at(i));
+  for (const Receiver& r : receivers) box.add(r.x);
   top_ = box.high.z;
   middle_ = box.center();
   half_ = 0.5 * (box.high - box.low);
@@ -92,17 +93,24 @@ Shaft::Shaft(const TileReceivers& receivers, double extent) : margin_(0x1p-44 * 
   }
 }
 
-void Shaft::tighten(const TileReceivers& receivers) {
-  tighten_slopes(receivers.x.data(), receivers.y.data(), receivers.z.data(), receivers.count, slope_.data());
-  horizon_ = receivers.horizon_cuts;
+void Shaft::tighten(std::span<const Receiver> receivers) {
+  tighten_slopes(receivers.data(), receivers.size(), slope_.data());
+  horizon_ =
+      std::any_of(receivers.begin(), receivers.end(), [](const Receiver& r) { return r.horizon_cuts; });
   if (!horizon_) return;
   Bounds normals;
-  for (int i = 0; i < receivers.count; ++i) {
-    normals.add(receivers.normal[i]);
-    lowest_ = std::min(lowest_, glm::dot(receivers.normal[i], receivers.at(i) - middle_));
+  lowest_ = 0.0;
+  for (const Receiver& r : receivers) {
+    normals.add(r.normal);
+    lowest_ = std::min(lowest_, glm::dot(r.normal, r.x - middle_));
   }
   normal_low_ = normals.low;
   normal_high_ = normals.high;
+}
+
+Shaft::Side Shaft::side_plane(int k) const {
+  if (k == kShaftSides) return {{0.0, 0.0, 1.0}, -top_};
+  return {{kDirections.x[k], kDirections.y[k], -slope_[k]}, -1.0};
 }
 
 double Shaft::side(int k, const Vec3& p) const {

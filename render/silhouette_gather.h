@@ -11,24 +11,23 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "render/silhouette_domain.h"
 #include "render/silhouette_frame.h"
 
 namespace penumbra::detail {
 
 inline constexpr int kTile = 8;  ///< pixels a side
-inline constexpr int kTileReceivers = kTile * kTile;
 inline constexpr int kShaftSides = 16;
 
-/// Receivers of one tile in the light's frame: in front of the light, and with some of it above the horizon.
-struct TileReceivers {
-  int count = 0;
-  bool horizon_cuts = false;  ///< of some receiver: some of the disk is below its tangent plane
-  std::array<double, kTileReceivers> x, y, z;
-  std::array<Vec3, kTileReceivers> normal;
-  std::array<std::uint32_t, kTileReceivers> pixel;
-  Vec3 at(int i) const { return {x[i], y[i], z[i]}; }
+/// A receiver in the light's frame: in front of the light, and with some of it above the horizon.
+struct Receiver {
+  Vec3 x, normal;
+  Chord horizon;  ///< no_horizon where all of the disk is above the tangent plane
+  bool horizon_cuts = false;
+  std::uint32_t pixel = 0;
 };
 
 /// A convex region that holds the disk and all receivers: z ≤ top, and for 16 directions d around the light
@@ -38,15 +37,21 @@ struct TileReceivers {
 class Shaft {
  public:
   /// By the box of the receivers: loose, but cheap.
-  Shaft(const TileReceivers& receivers, double extent);
+  Shaft(std::span<const Receiver> receivers, double extent);
   /// By the receivers themselves.
-  void tighten(const TileReceivers& receivers);
+  void tighten(std::span<const Receiver> receivers);
 
   bool misses(const Vec3& low, const Vec3& high) const;
   bool misses(const BandEdge& edge) const;
   /// Both faces keep their sides for every receiver of the tile, and the jump is 0.
   bool never_silhouette(const BandEdge& edge) const;
 
+  /// Plane k of the shaft, 0 to kShaftSides: normal·p + offset ≤ 0 inside; the last is the top.
+  struct Side {
+    Vec3 normal;
+    double offset;
+  };
+  Side side_plane(int k) const;
   const Vec3& middle() const { return middle_; }
   const Vec3& half() const { return half_; }
   double margin() const { return margin_; }

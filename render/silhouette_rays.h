@@ -12,9 +12,9 @@ namespace penumbra::detail {
 
 struct RayTask {
   std::uint32_t pixel;
-  glm::dvec2 aim;     ///< on the unit disk
-  bool free = false;  ///< the answer
-  int receiver = 0;   ///< of the tile, for whoever asks
+  glm::dvec2 aim;            ///< on the unit disk
+  bool free = false;         ///< the answer
+  std::size_t receiver = 0;  ///< of the tile, for whoever asks
 };
 
 /// The offset of receivers in scene units: that of ray origins (kRayOffset).
