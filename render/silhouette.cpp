@@ -143,7 +143,7 @@ void Evaluation::descend(std::size_t first, std::size_t last, std::size_t depth,
     Shaft shaft(half, band_.extent);
     shaft.tighten(half);
     narrow(list, shaft, w.edges);
-    w.lists[depth + 1].assign(list, w.edges, shaft.middle());
+    w.lists[depth + 1].assign(list, w.edges);
     descend(from, to, depth + 1, w);
   }
 }

@@ -18,6 +18,19 @@ double rim_integral(double y) {
   return 0.5 * (y * std::sqrt((1.0 - y) * (1.0 + y)) + std::asin(y));
 }
 
+/// By x; rows hold few crossings, mostly.
+template <class Crossing>
+void sort_crossings(Crossing* first, Crossing* last) {
+  const auto before = [](const Crossing& p, const Crossing& q) { return p.x < q.x; };
+  if (last - first > 16) return std::sort(first, last, before);
+  for (Crossing* c = first; c != last; ++c) {
+    const Crossing moving = *c;
+    Crossing* to = c;
+    for (; to != first && before(moving, to[-1]); --to) *to = to[-1];
+    *to = moving;
+  }
+}
+
 }  // namespace
 
 bool fuse_chain(const Cut& cut, const DiskPart& part, Fused& out) {
@@ -65,15 +78,10 @@ void Fuser::add_interval(const Row& row, double from, double to, int level) {
   if (room > aim.room) aim = {room, {0.5 * (from + to), row.y}};
 }
 
-/// The crossings of one row, in any order, sorted in place.
+/// The crossings of one row, in any order; they are sorted in place.
 void Fuser::sweep(const Row& row, Crossing* first, Crossing* last) {
   parity_ ^= 1;
-  for (Crossing* c = first; c != last; ++c) {
-    const Crossing moving = *c;
-    Crossing* to = c;
-    for (; to != first && moving.x < to[-1].x; --to) *to = to[-1];
-    *to = moving;
-  }
+  sort_crossings(first, last);
   int level = row.first_level;
   double from = row.left;
   for (const Crossing* c = first; c != last; ++c) {

@@ -148,12 +148,17 @@ void EdgeList::assign(const Band& band, std::span<const std::uint32_t> edges, co
   fill_columns();
 }
 
-void EdgeList::assign(const EdgeList& list, std::span<const std::uint32_t> places, const Vec3& middle) {
-  middle_ = middle;
+void EdgeList::assign(const EdgeList& list, std::span<const std::uint32_t> places) {
+  middle_ = list.middle_;
   extent_ = list.extent_;
-  edges_.clear();
-  for (const std::uint32_t i : places) edges_.push_back(list.edges_[i]);
-  fill_columns();
+  edges_.resize(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) edges_[i] = list.edges_[places[i]];
+  for (int c = 0; c < kColumns; ++c) {
+    columns_[c].resize(places.size());
+    const float* from = list.columns_[c].data();
+    float* to = columns_[c].data();
+    for (std::size_t i = 0; i < places.size(); ++i) to[i] = from[places[i]];
+  }
 }
 
 void EdgeList::fill_plane(const FacePlane& plane, std::size_t i, Column first) {

@@ -27,8 +27,8 @@ class EdgeList {
  public:
   /// `middle`: where the float coordinates start. Cost O(edges).
   void assign(const Band& band, std::span<const std::uint32_t> edges, const Vec3& middle);
-  /// Some of another list's edges, by their places in it.
-  void assign(const EdgeList& list, std::span<const std::uint32_t> places, const Vec3& middle);
+  /// Some of another list's edges, by their places in it, with the same middle.
+  void assign(const EdgeList& list, std::span<const std::uint32_t> places);
 
   std::size_t size() const { return edges_.size(); }
   const BandEdge& operator[](std::size_t i) const { return *edges_[i]; }
