@@ -87,6 +87,7 @@ class Evaluation {
   void descend(std::size_t first, std::size_t last, std::size_t depth, Workspace& w) const;
   void evaluate(std::size_t i, const EdgeList& list, Workspace& w) const;
   void integrate(std::size_t i, const DiskPart& part, Workspace& w) const;
+  void certify(const RayTask& task, Workspace& w) const;
   void decide(Workspace& w) const;
   void light_up(Workspace& w) const;
 
@@ -164,10 +165,14 @@ void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
   const Vec3& normal = surface_.normal[pixel];
   const Vec3 world = surface_.position[pixel] + offset_ * normal;
   const Vec3 x = light_.point(world);
-  if (is_behind(scene_.light, surface_.position[pixel]) || !(x.z > 0.0)) {
+  if (is_behind(scene_.light, surface_.position[pixel])) {
     out_.visibility[pixel] = 0.0f;
     out_.region[pixel] = 2;
     ++w.counts.behind_light;
+    return;
+  }
+  if (!(x.z > 0.0)) {  // only the offset has moved it behind the light's plane
+    (options_.integrate ? w.fallback : w.open).push_back(static_cast<std::uint32_t>(pixel));
     return;
   }
   const Vec3 n = light_.direction(normal);
@@ -189,7 +194,7 @@ void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) co
     return;
   }
   w.fused[i] = w.fuser.fuse(w.cut, part, options_.rows);
-  w.tasks.push_back({w.receivers[i].pixel, w.fused[i].aims[0], false, i});
+  w.tasks.push_back({w.receivers[i].pixel, w.fused[i].aims[0], false, false, i});
   w.counts.segments += w.cut.segments.size();
   ++w.counts.integrated;
   w.counts.slabs += w.fused[i].way == Fusion::kSlabs ? 1 : 0;
@@ -207,7 +212,7 @@ void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) con
   if (w.sight.segments.empty()) {
     const glm::dvec2 middle = part.middle();
     w.fused[i] = {part.area(), 1, {middle, middle}};
-    w.tasks.push_back({w.receivers[i].pixel, middle, false, i});
+    w.tasks.push_back({w.receivers[i].pixel, middle, w.certain[i] != 0, false, i});
   } else if (options_.integrate) {
     integrate(i, part, w);
   } else {
@@ -224,27 +229,38 @@ void Evaluation::light_up(Workspace& w) const {
   w.counts.certified_lit += w.receivers.size();
 }
 
+/// Where nothing crosses the disk the answer holds for all of it. It is certified if it is beyond doubt, and
+/// left to a plain ray if not.
+void Evaluation::certify(const RayTask& task, Workspace& w) const {
+  if (!task.free && !is_hidden(scene_, rays_, surface_, task.pixel)) {
+    w.second_tasks.push_back({task.pixel, task.aim, false, false, task.receiver});
+    return;
+  }
+  out_.visibility[task.pixel] = task.free ? 1.0f : 0.0f;
+  out_.region[task.pixel] = task.free ? 0 : 2;
+  ++(task.free ? w.counts.certified_lit : w.counts.certified_umbra);
+}
+
 /// The rays of a tile, and what they make of its areas.
 void Evaluation::decide(Workspace& w) const {
-  trace_tasks(rays_, surface_, light_, w.tasks);
-  w.counts.rays += w.tasks.size();
   const auto settle = [&](const RayTask& task) {
     out_.visibility[task.pixel] = task.free ? static_cast<float>(w.fused[task.receiver].area / kPi) : 0.0f;
-    if (!w.certain[task.receiver]) return;
-    out_.region[task.pixel] = task.free ? 0 : 2;
-    ++(task.free ? w.counts.certified_lit : w.counts.certified_umbra);
   };
   w.second_tasks.clear();
+  trace_tasks(rays_, surface_, light_, w.tasks);
   for (const RayTask& task : w.tasks) {
     const Fused& f = w.fused[task.receiver];
-    if (task.free || f.aims[1] == f.aims[0])
+    if (w.certain[task.receiver])
+      certify(task, w);
+    else if (task.free || f.aims[1] == f.aims[0])
       settle(task);
     else
-      w.second_tasks.push_back({task.pixel, f.aims[1], false, task.receiver});
+      w.second_tasks.push_back({task.pixel, f.aims[1], false, false, task.receiver});
   }
   trace_tasks(rays_, surface_, light_, w.second_tasks);
-  w.counts.second_rays += w.second_tasks.size();
   for (const RayTask& task : w.second_tasks) settle(task);
+  w.counts.rays += w.tasks.size();
+  w.counts.second_rays += w.second_tasks.size();
 }
 
 SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {

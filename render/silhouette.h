@@ -28,7 +28,8 @@ namespace penumbra {
 struct SilhouetteOptions {
   int rows = 64;                ///< scanlines where more than two levels may occur, 4 to 1024
   bool integrate = true;        ///< false: certificates only; pixels without one are listed in `open`
-  int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (counted; none are known)
+  int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (none are known) or the offset
+                                ///< moves a receiver behind the light's plane; counted
 };
 
 struct SilhouetteCounts {
@@ -44,7 +45,7 @@ struct SilhouetteCounts {
   std::size_t fused = 0;                   ///< of these, by rows
   std::size_t overlapping = 0;             ///< of these, where more than two levels were met
   std::size_t rays = 0, second_rays = 0;
-  std::size_t fallback = 0;  ///< receivers left to rays, since edges did not close up
+  std::size_t fallback = 0;  ///< receivers left to rays, see fallback_samples
   std::size_t bytes = 0;     ///< of the band, its tree and all threads' lists at their longest
 };
 
