@@ -25,7 +25,9 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value
 }
 
 void add_reference_options(CLI::App& command, ReferenceOptions& options) {
-  const char* group = "Method reference: stratified rays to the disk (Embree)";
+  const char* group =
+      "Methods reference and rays: stratified rays to the disk (Embree), rays only where nothing is "
+      "certified";
   command.add_option("--samples", options.samples, "Rays a pixel, rounded up to ⌊√N⌋ rows of equal length")
       ->check(CLI::Range(1, 1 << 20))
       ->capture_default_str()
@@ -62,11 +64,21 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
       ->group(group);
 }
 
+void add_silhouette_options(CLI::App& command, SilhouetteOptions& options) {
+  command
+      .add_option("--silhouette-rows", options.rows,
+                  "Scanlines across the disk where many edges overlap; few edges are exact without")
+      ->check(CLI::Range(4, 1024))
+      ->capture_default_str()
+      ->group("Method silhouette: exact area between the edges that each pixel sees (CPU)");
+}
+
 }  // namespace
 
 void add_method_options(CLI::App& command, RenderOptions& options) {
   add_reference_options(command, options.reference);
   add_d_buffer_options(command, options.d_buffer);
+  add_silhouette_options(command, options.silhouette);
 }
 
 }  // namespace penumbra::apps

@@ -15,9 +15,16 @@ struct NamedMethod {
   Method method;
   const char* name;
 };
-constexpr std::array kMethods{NamedMethod{Method::kNone, "none"}, NamedMethod{Method::kHard, "hard"},
-                              NamedMethod{Method::kDBuffer, "dbuffer"},
-                              NamedMethod{Method::kReference, "reference"}};
+constexpr std::array kMethods{
+    NamedMethod{Method::kNone, "none"},       NamedMethod{Method::kHard, "hard"},
+    NamedMethod{Method::kDBuffer, "dbuffer"}, NamedMethod{Method::kSilhouette, "silhouette"},
+    NamedMethod{Method::kRays, "rays"},       NamedMethod{Method::kReference, "reference"}};
+
+/// What a method finds out about the pixels.
+struct Seen {
+  std::vector<float> visibility;
+  std::vector<std::int8_t> region;  ///< empty: nothing is certified
+};
 
 std::vector<std::uint32_t> every_pixel(const SurfaceBuffer& surface) {
   std::vector<std::uint32_t> pixels(surface.size());
@@ -33,6 +40,31 @@ nlohmann::json to_json(const std::vector<StageTime>& stages) {
   auto out = nlohmann::json::object();
   for (const StageTime& s : stages) out[s.name] = s.milliseconds;
   return out;
+}
+
+nlohmann::json to_json(const SilhouetteCounts& c) {
+  return {{"faces", c.faces},
+          {"mixed_faces", c.mixed_faces},
+          {"mesh_edges", c.mesh_edges},
+          {"band_edges", c.band_edges},
+          {"cut_edges", c.cut_edges},
+          {"receivers", c.receivers},
+          {"certified_lit", c.certified_lit},
+          {"certified_umbra", c.certified_umbra},
+          {"behind_light", c.behind_light},
+          {"tiles", c.tiles},
+          {"empty_tiles", c.empty_tiles},
+          {"listed_edges", c.listed_edges},
+          {"projected_edges", c.projected_edges},
+          {"segments", c.segments},
+          {"integrated", c.integrated},
+          {"slabs", c.slabs},
+          {"fused", c.fused},
+          {"overlapping", c.overlapping},
+          {"rays", c.rays},
+          {"second_rays", c.second_rays},
+          {"fallback", c.fallback},
+          {"bytes", c.bytes}};
 }
 
 }  // namespace
@@ -67,10 +99,12 @@ struct Renderer::State {
   gl::Backend backend{};
 
   /// Visibility by the chosen method; fills stages and stats.
-  std::vector<float> visibility(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
-                                nlohmann::json& stats);
+  Seen see(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
+           nlohmann::json& stats);
   std::vector<float> by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface,
                                  StageClock& clock, nlohmann::json& stats);
+  Seen by_silhouette(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
+                     nlohmann::json& stats);
 };
 
 std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface,
@@ -98,8 +132,30 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
   return std::move(frame.visibility);
 }
 
-std::vector<float> Renderer::State::visibility(const RenderOptions& options, const SurfaceBuffer& surface,
-                                               StageClock& clock, nlohmann::json& stats) {
+/// Also the method `rays`, which traces what is not certified.
+Seen Renderer::State::by_silhouette(const RenderOptions& options, const SurfaceBuffer& surface,
+                                    StageClock& clock, nlohmann::json& stats) {
+  SilhouetteOptions silhouette = options.silhouette;
+  silhouette.integrate = options.method == Method::kSilhouette;
+  SilhouetteResult r = silhouette_visibility(scene, rays, surface, silhouette, options.progress);
+  for (const StageTime& s : r.stages) clock.add(s);
+  if (silhouette.integrate) {
+    stats["options"] = {{"rows", silhouette.rows}};
+  } else {
+    const ReferenceResult open =
+        trace_reference(scene, rays, surface, r.open, options.reference, false, options.progress);
+    for (std::size_t i = 0; i < r.open.size(); ++i) r.visibility[r.open[i]] = open.visibility[i];
+    r.counts.rays += open.rays;
+    stats["options"] = {{"samples", open.samples}, {"seed", options.reference.seed}};
+    clock.finish("rays");
+  }
+  stats["counts"] = to_json(r.counts);
+  stats["counts"]["open"] = r.open.size();
+  return {std::move(r.visibility), std::move(r.region)};
+}
+
+Seen Renderer::State::see(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
+                          nlohmann::json& stats) {
   const auto pixels = every_pixel(surface);
   const bool point = scene.light.radius == 0.0;
   stats["renderer"] = "Embree 3, " + std::to_string(used_threads(options.threads)) + " threads";
@@ -110,7 +166,7 @@ std::vector<float> Renderer::State::visibility(const RenderOptions& options, con
         open[i] =
             static_cast<float>(fraction_above_horizon(scene.light, surface.position[i], surface.normal[i]));
     clock.finish("visibility");
-    return open;
+    return {std::move(open), {}};
   }
   if (options.method == Method::kReference && !point) {
     ReferenceResult r =
@@ -119,14 +175,16 @@ std::vector<float> Renderer::State::visibility(const RenderOptions& options, con
     stats["options"] = {{"samples", r.samples}, {"seed", options.reference.seed}};
     stats["counts"] = {{"rays", r.rays}};
     stats["mrays_per_second"] = static_cast<double>(r.rays) / (1e3 * r.milliseconds);
-    return std::move(r.visibility);
+    return {std::move(r.visibility), {}};
   }
-  if (options.method == Method::kDBuffer && !point) return by_d_buffer(options, surface, clock, stats);
+  if (options.method == Method::kDBuffer && !point) return {by_d_buffer(options, surface, clock, stats), {}};
+  if ((options.method == Method::kSilhouette || options.method == Method::kRays) && !point)
+    return by_silhouette(options, surface, clock, stats);
   // A point light has no penumbra: every method's answer is the hard shadow.
   ReferenceResult r = trace_hard(scene, rays, surface, pixels);
   clock.finish("visibility");
   stats["counts"] = {{"rays", r.rays}};
-  return std::move(r.visibility);
+  return {std::move(r.visibility), {}};
 }
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options)
@@ -141,8 +199,8 @@ RenderResult Renderer::render_frame(const RenderOptions& options) {
                {"counts", nlohmann::json::object()}};
   out.surface = make_surface_buffer(state_->scene, state_->rays, options.width, options.height);
   clock.finish("surface_buffer");
-  const std::vector<float> visibility = state_->visibility(options, out.surface, clock, out.stats);
-  out.image = shade(state_->scene, out.surface, visibility, options.threads);
+  const Seen seen = state_->see(options, out.surface, clock, out.stats);
+  out.image = shade(state_->scene, out.surface, seen.visibility, options.threads, seen.region);
   clock.finish("shading");
   out.stages = clock.stages();
   for (const StageTime& s : out.stages) out.frame_ms += s.milliseconds;

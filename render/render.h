@@ -2,7 +2,7 @@
 // calls.
 //
 //   surface_buffer.h  what the camera sees          (the same points for every method)
-//   visibility        by the chosen method          (reference.h, d_buffer.h, hard shadow, none)
+//   visibility        by the chosen method          (reference.h, d_buffer.h, silhouette.h, hard shadow, none)
 //   shading.h         visibility → RGB              (the same code for every method)
 #pragma once
 
@@ -17,12 +17,13 @@
 #include "render/image.h"
 #include "render/reference.h"
 #include "render/scene.h"
+#include "render/silhouette.h"
 #include "render/stage_clock.h"
 #include "render/surface_buffer.h"
 
 namespace penumbra {
 
-enum class Method { kNone, kHard, kDBuffer, kReference };
+enum class Method { kNone, kHard, kDBuffer, kSilhouette, kRays, kReference };
 Method method_of(const std::string& name);  ///< throws UsageError that lists the names
 const char* name_of(Method method);
 std::vector<std::string> method_names();
@@ -33,8 +34,9 @@ struct RenderOptions {
   int threads = 0;                ///< 0: all cores
   int warm_up = 0;                ///< frames rendered and thrown away before the one that is timed
   gl::Backend backend = gl::Backend::kOsMesa;
-  ReferenceOptions reference;
+  ReferenceOptions reference;  ///< of the methods reference and rays
   DBufferOptions d_buffer;
+  SilhouetteOptions silhouette;
   Progress progress;
 };
 

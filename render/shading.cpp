@@ -106,8 +106,8 @@ double fraction_above_horizon(const DiskLight& light, const Vec3& x, const Vec3&
   return horizon_in_frame(p.x, p.n, light.radius);
 }
 
-Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility,
-            int threads) {
+Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility, int threads,
+            std::span<const std::int8_t> regions) {
   Image image;
   image.width = surface.width;
   image.height = surface.height;
@@ -135,7 +135,7 @@ Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const fl
     }
     alpha[i] = 1.0f;
     seen[i] = visibility[i];
-    region[i] = p.x.z <= 0.0 ? 2.0f : -1.0f;
+    region[i] = p.x.z <= 0.0 ? 2.0f : (regions.empty() ? -1.0f : static_cast<float>(regions[i]));
     object[i] = static_cast<float>(surface.object[i]);
   };
   arena.execute([&] {

@@ -5,6 +5,7 @@
 // fraction and V the visibility. Radiance leaves the light's front side only.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "render/image.h"
@@ -22,9 +23,9 @@ double disk_irradiance_factor(const DiskLight& light, const Vec3& x, const Vec3&
 /// where the center is above it, else 0.
 double fraction_above_horizon(const DiskLight& light, const Vec3& x, const Vec3& n);
 
-/// Every channel of the EXR interface: R G B A, visibility, region, object, P, N. `region` is -1 (not
-/// certified) everywhere but behind the light's plane, where it is 2.
+/// Every channel of the EXR interface: R G B A, visibility, region, object, P, N. Without `region` it is -1
+/// (not certified) everywhere but behind the light's plane, where it is 2.
 Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility,
-            int threads = 0);
+            int threads = 0, std::span<const std::int8_t> region = {});
 
 }  // namespace penumbra

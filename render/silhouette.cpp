@@ -1,0 +1,361 @@
+#include "render/silhouette.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <numbers>
+
+#include "mesh/error.h"
+#include "render/ray_scene_impl.h"
+#include "render/reference.h"
+#include "render/silhouette_fuse.h"
+#include "render/silhouette_gather.h"
+#include "render/silhouette_rays.h"
+
+namespace penumbra {
+namespace {
+
+using namespace detail;
+
+constexpr double kPi = std::numbers::pi;
+
+constexpr std::size_t kMostDepth = 4;   // a tile is halved at most that often
+constexpr std::size_t kShortList = 24;  // edges; shorter lists are not narrowed
+
+/// What one thread keeps between tiles, and what it has counted.
+struct Workspace {
+  std::vector<Receiver> receivers;
+  std::vector<Fused> fused;   ///< one a receiver
+  std::vector<char> certain;  ///< one a receiver
+  std::vector<std::uint32_t> edges;
+  std::array<EdgeList, kMostDepth + 1> lists;  ///< of the tile, of the half at hand, of its half, …
+  Sight sight;
+  Cut cut;
+  Fuser fuser;
+  std::vector<RayTask> tasks, second_tasks;
+  std::vector<std::uint32_t> fallback, open;
+  SilhouetteCounts counts;
+
+  std::size_t bytes() const {
+    std::size_t sum =
+        receivers.capacity() * (sizeof(Receiver) + sizeof(Fused)) + edges.capacity() * sizeof(edges[0]);
+    for (const EdgeList& list : lists) sum += list.bytes();
+    return sum;
+  }
+};
+
+/// Sorts receivers into two halves along the longest side of their box; returns where the second begins.
+std::size_t halve(std::span<Receiver> receivers) {
+  Bounds box;
+  for (const Receiver& r : receivers) box.add(r.x);
+  const Vec3 size = box.high - box.low;
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  const std::size_t middle = receivers.size() / 2;
+  std::nth_element(receivers.begin(), receivers.begin() + static_cast<std::ptrdiff_t>(middle),
+                   receivers.end(),
+                   [axis](const Receiver& a, const Receiver& b) { return a.x[axis] < b.x[axis]; });
+  return middle;
+}
+
+/// One frame: everything that tiles share, and the result they write to (each its own pixels).
+class Evaluation {
+ public:
+  Evaluation(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, const Band& band,
+             const BandTree& tree, const UnitLight& light, const SilhouetteOptions& options,
+             SilhouetteResult& out)
+      : scene_(scene),
+        rays_(rays),
+        surface_(surface),
+        band_(band),
+        tree_(tree),
+        light_(light),
+        options_(options),
+        offset_(receiver_offset(rays.frame())),
+        slack_(certificate_slack(band.extent)),
+        out_(out) {}
+
+  void tile(int column, int row, Workspace& w) const;
+
+ private:
+  void collect(int column, int row, Workspace& w) const;
+  void add_receiver(std::size_t pixel, Workspace& w) const;
+  bool is_reached(const Shaft& shaft) const;
+  void descend(std::size_t first, std::size_t last, std::size_t depth, Workspace& w) const;
+  void evaluate(std::size_t i, const EdgeList& list, Workspace& w) const;
+  void integrate(std::size_t i, const DiskPart& part, Workspace& w) const;
+  void certify(const RayTask& task, Workspace& w) const;
+  void decide(Workspace& w) const;
+  void light_up(Workspace& w) const;
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const SurfaceBuffer& surface_;
+  const Band& band_;
+  const BandTree& tree_;
+  const UnitLight& light_;
+  const SilhouetteOptions& options_;
+  const double offset_, slack_;
+  SilhouetteResult& out_;
+};
+
+void Evaluation::tile(int column, int row, Workspace& w) const {
+  collect(column, row, w);
+  if (w.receivers.empty()) return;
+  ++w.counts.tiles;
+  w.counts.receivers += w.receivers.size();
+  Shaft shaft(w.receivers, band_.extent);
+  if (!is_reached(shaft)) return light_up(w);
+  w.edges.clear();
+  if (!tree_.misses(shaft)) {
+    shaft.tighten(w.receivers);
+    tree_.gather(shaft, w.edges);
+  }
+  w.counts.listed_edges += w.edges.size();
+  w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
+  w.lists[0].assign(band_, w.edges, shaft.middle());
+  w.fused.resize(w.receivers.size());
+  w.certain.resize(w.receivers.size());
+  w.tasks.clear();
+  descend(0, w.receivers.size(), 0, w);
+  decide(w);
+}
+
+/// The box of some caster is between the shaft's receivers and the light.
+bool Evaluation::is_reached(const Shaft& shaft) const {
+  return std::any_of(band_.casters.begin(), band_.casters.end(),
+                     [&](const Bounds& box) { return !shaft.misses(box.low, box.high); });
+}
+
+/// Receivers first to last with the list of this depth: one by one where the list is short, else in two
+/// halves that lie apart, each with what is left of the list.
+void Evaluation::descend(std::size_t first, std::size_t last, std::size_t depth, Workspace& w) const {
+  const EdgeList& list = w.lists[depth];
+  if (list.size() <= kShortList || depth == kMostDepth || last - first < 4) {
+    for (std::size_t i = first; i < last; ++i) evaluate(i, list, w);
+    return;
+  }
+  const std::size_t middle = halve(std::span(w.receivers).subspan(first, last - first)) + first;
+  for (const auto& [from, to] : {std::pair(first, middle), std::pair(middle, last)}) {
+    const auto half = std::span<const Receiver>(w.receivers).subspan(from, to - from);
+    Shaft shaft(half, band_.extent);
+    shaft.tighten(half);
+    narrow(list, shaft, w.edges);
+    w.lists[depth + 1].assign(list, w.edges);
+    descend(from, to, depth + 1, w);
+  }
+}
+
+void Evaluation::collect(int column, int row, Workspace& w) const {
+  w.receivers.clear();
+  const int x1 = std::min((column + 1) * kTile, surface_.width),
+            y1 = std::min((row + 1) * kTile, surface_.height);
+  for (int y = row * kTile; y < y1; ++y)
+    for (int x = column * kTile; x < x1; ++x)
+      add_receiver(static_cast<std::size_t>(y) * static_cast<std::size_t>(surface_.width) +
+                       static_cast<std::size_t>(x),
+                   w);
+}
+
+void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
+  if (!surface_.hit(pixel)) return;
+  const Vec3& normal = surface_.normal[pixel];
+  const Vec3 world = surface_.position[pixel] + offset_ * normal;
+  const Vec3 x = light_.point(world);
+  if (is_behind(scene_.light, surface_.position[pixel])) {
+    out_.visibility[pixel] = 0.0f;
+    out_.region[pixel] = 2;
+    ++w.counts.behind_light;
+    return;
+  }
+  if (!(x.z > 0.0)) {  // only the offset has moved it behind the light's plane
+    (options_.integrate ? w.fallback : w.open).push_back(static_cast<std::uint32_t>(pixel));
+    return;
+  }
+  const Vec3 n = light_.direction(normal);
+  // The center's height over the tangent plane, and how far the plane falls or rises across the disk.
+  const double center = -glm::dot(n, x), fall2 = n.x * n.x + n.y * n.y;
+  const bool cuts = center * center < fall2;
+  if (!cuts && !(center > 0.0)) {
+    out_.visibility[pixel] = 0.0f;
+    return;
+  }
+  w.receivers.push_back(
+      {x, n, cuts ? chord_of_plane(n, x, 1.0) : no_horizon(), cuts, static_cast<std::uint32_t>(pixel)});
+}
+
+void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) const {
+  cut_segments(w.sight.segments, part, w.cut);
+  if (!w.cut.closed) {
+    w.fallback.push_back(w.receivers[i].pixel);
+    return;
+  }
+  w.fused[i] = w.fuser.fuse(w.cut, part, options_.rows);
+  w.tasks.push_back({w.receivers[i].pixel, w.fused[i].aims[0], false, false, i});
+  w.counts.segments += w.cut.segments.size();
+  ++w.counts.integrated;
+  w.counts.slabs += w.fused[i].way == Fusion::kSlabs ? 1 : 0;
+  w.counts.fused += w.fused[i].way == Fusion::kRows ? 1 : 0;
+  w.counts.overlapping += w.fused[i].levels > 2 ? 1 : 0;
+}
+
+void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
+  const Receiver& r = w.receivers[i];
+  const DiskPart part(r.horizon);
+  look(list, r.x, r.horizon, slack_, w.sight);
+  w.counts.projected_edges += list.size();
+  // Below a horizon that cuts the disk edges may have been left out: nothing is certified there.
+  w.certain[i] = w.sight.certain && !part.is_cut();
+  if (w.sight.segments.empty()) {
+    const glm::dvec2 middle = part.middle();
+    w.fused[i] = {part.area(), 1, {middle, middle}};
+    w.tasks.push_back({w.receivers[i].pixel, middle, w.certain[i] != 0, false, i});
+  } else if (options_.integrate) {
+    integrate(i, part, w);
+  } else {
+    w.open.push_back(w.receivers[i].pixel);
+  }
+}
+
+/// No caster is between the tile and the light.
+void Evaluation::light_up(Workspace& w) const {
+  for (const Receiver& r : w.receivers) {
+    out_.visibility[r.pixel] = static_cast<float>(half_plane_area(r.horizon.delta));
+    out_.region[r.pixel] = 0;
+  }
+  w.counts.certified_lit += w.receivers.size();
+}
+
+/// Where nothing crosses the disk the answer holds for all of it. It is certified if it is beyond doubt, and
+/// left to a plain ray if not.
+void Evaluation::certify(const RayTask& task, Workspace& w) const {
+  if (!task.free && !is_hidden(scene_, rays_, surface_, task.pixel)) {
+    w.second_tasks.push_back({task.pixel, task.aim, false, false, task.receiver});
+    return;
+  }
+  out_.visibility[task.pixel] = task.free ? 1.0f : 0.0f;
+  out_.region[task.pixel] = task.free ? 0 : 2;
+  ++(task.free ? w.counts.certified_lit : w.counts.certified_umbra);
+}
+
+/// The rays of a tile, and what they make of its areas.
+void Evaluation::decide(Workspace& w) const {
+  const auto settle = [&](const RayTask& task) {
+    out_.visibility[task.pixel] = task.free ? static_cast<float>(w.fused[task.receiver].area / kPi) : 0.0f;
+  };
+  w.second_tasks.clear();
+  trace_tasks(rays_, surface_, light_, w.tasks);
+  for (const RayTask& task : w.tasks) {
+    const Fused& f = w.fused[task.receiver];
+    if (w.certain[task.receiver])
+      certify(task, w);
+    else if (task.free || f.aims[1] == f.aims[0])
+      settle(task);
+    else
+      w.second_tasks.push_back({task.pixel, f.aims[1], false, false, task.receiver});
+  }
+  trace_tasks(rays_, surface_, light_, w.second_tasks);
+  for (const RayTask& task : w.second_tasks) settle(task);
+  w.counts.rays += w.tasks.size();
+  w.counts.second_rays += w.second_tasks.size();
+}
+
+SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
+  for (const auto member :
+       {&SilhouetteCounts::receivers, &SilhouetteCounts::certified_lit, &SilhouetteCounts::certified_umbra,
+        &SilhouetteCounts::behind_light, &SilhouetteCounts::tiles, &SilhouetteCounts::empty_tiles,
+        &SilhouetteCounts::listed_edges, &SilhouetteCounts::projected_edges, &SilhouetteCounts::segments,
+        &SilhouetteCounts::integrated, &SilhouetteCounts::slabs, &SilhouetteCounts::fused,
+        &SilhouetteCounts::overlapping, &SilhouetteCounts::rays, &SilhouetteCounts::second_rays})
+    a.*member += b.*member;
+  return a;
+}
+
+/// Runs `body(column, row, workspace)` for every tile, reporting progress.
+template <class Spaces, class Body>
+void for_each_tile(const RayScene& rays, const SurfaceBuffer& surface, Spaces& spaces,
+                   const Progress& progress, const Body& body) {
+  const int columns = (surface.width + kTile - 1) / kTile, rows = (surface.height + kTile - 1) / kTile;
+  std::atomic<int> done{0};
+  std::atomic<bool> stop{false};
+  std::mutex reporting;
+  rays.impl().arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 8),
+                      [&](const tbb::blocked_range<int>& range) {
+                        if (stop) return;
+                        Workspace& w = spaces.local();
+                        for (int i = range.begin(); i < range.end(); ++i) body(i % columns, i / columns, w);
+                        const int finished = done += static_cast<int>(range.size());
+                        if (progress && reporting.try_lock()) {
+                          if (!progress(static_cast<double>(finished) / (columns * rows))) stop = true;
+                          reporting.unlock();
+                        }
+                      });
+  });
+  if (stop) throw Cancelled();
+}
+
+void trace_fallback(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+                    const SilhouetteOptions& options, const std::vector<std::uint32_t>& pixels,
+                    SilhouetteResult& out) {
+  ReferenceOptions reference;
+  reference.samples = options.fallback_samples;
+  const ReferenceResult r = trace_reference(scene, rays, surface, pixels, reference);
+  for (std::size_t i = 0; i < pixels.size(); ++i) out.visibility[pixels[i]] = r.visibility[i];
+  out.counts.fallback = pixels.size();
+  out.counts.rays += r.rays;
+}
+
+void require_valid(const Scene& scene, const SilhouetteOptions& options) {
+  if (!(scene.light.radius > 0.0)) throw UsageError("silhouettes need a light of radius above 0");
+  if (options.rows < 4 || options.rows > 1024)
+    throw UsageError("rows must lie in 4 to 1024, not " + std::to_string(options.rows));
+}
+
+}  // namespace
+
+SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+                                       const SilhouetteOptions& options, const Progress& progress) {
+  require_valid(scene, options);
+  SilhouetteResult out;
+  out.visibility.assign(surface.size(), 1.0f);
+  out.region.assign(surface.size(), -1);
+  StageClock clock;
+  const UnitLight light(scene.light);
+  Band band;
+  rays.impl().arena.execute([&] { band = make_band(scene, light); });
+  clock.finish("band");
+  const BandTree tree(band);
+  clock.finish("band_tree");
+
+  tbb::enumerable_thread_specific<Workspace> spaces;
+  const Evaluation evaluation(scene, rays, surface, band, tree, light, options, out);
+  for_each_tile(rays, surface, spaces, progress,
+                [&](int column, int row, Workspace& w) { evaluation.tile(column, row, w); });
+  std::vector<std::uint32_t> fallback;
+  for (const Workspace& w : spaces) {
+    out.counts += w.counts;
+    out.counts.bytes += w.bytes();
+    fallback.insert(fallback.end(), w.fallback.begin(), w.fallback.end());
+    out.open.insert(out.open.end(), w.open.begin(), w.open.end());
+  }
+  std::sort(out.open.begin(), out.open.end());
+  clock.finish("receivers");
+  if (!fallback.empty()) {
+    trace_fallback(scene, rays, surface, options, fallback, out);
+    clock.finish("fallback");
+  }
+  out.counts.faces = band.faces;
+  out.counts.mixed_faces = band.mixed_faces;
+  out.counts.mesh_edges = band.mesh_edges;
+  out.counts.band_edges = band.edges.size();
+  out.counts.cut_edges = band.cut_edges;
+  out.counts.bytes += tree.bytes();
+  out.stages = clock.stages();
+  return out;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,67 @@
+// Render step 5, the accurate rung: visibility without noise, from the silhouette each receiver sees.
+//
+// In: surface points. Out: V per pixel, and for many of them a certificate. Five steps, one header each:
+//
+//   silhouette_frame.h        casters → the silhouette band in the light's frame
+//   silhouette_gather.h       band, 8×8 receivers → the edges they may see across the disk
+//   silhouette_certificate.h  edges, receiver → segments across the disk; none: wholly lit or wholly in umbra
+//   silhouette_integrate.h    segments → exact integral of the number of hiding faces
+//   silhouette_fuse.h         scanlines → area of the lowest level, exact where only two levels occur
+//
+// and one ray to the lowest level, which tells whether that is 0. Receivers are the surface buffer's points,
+// moved by the same offset as the origins of rays; what is certified is O of the moved point. The idea of
+// integrating visible area from silhouettes seen from the receiver is that of E. Eisemann and X. Décoret,
+// "Visibility sampling on GPU and applications" (2007), and of soft shadow volumes (S. Laine et al., 2005),
+// which sample; here areas are exact, overlap is fused, and the band replaces their edge searches.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/progress.h"
+#include "render/ray_scene.h"
+#include "render/stage_clock.h"
+#include "render/surface_buffer.h"
+
+namespace penumbra {
+
+struct SilhouetteOptions {
+  int rows = 64;                ///< scanlines where more than two levels may occur, 4 to 1024
+  bool integrate = true;        ///< false: certificates only; pixels without one are listed in `open`
+  int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (none are known) or the offset
+                                ///< moves a receiver behind the light's plane; counted
+};
+
+struct SilhouetteCounts {
+  std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, band_edges = 0, cut_edges = 0;
+  std::size_t receivers = 0;  ///< in front of the light, with some of it above the horizon
+  std::size_t certified_lit = 0, certified_umbra = 0, behind_light = 0;
+  std::size_t tiles = 0, empty_tiles = 0;  ///< with receivers; of these, without edges
+  std::size_t listed_edges = 0;            ///< sum over tiles of their lists' lengths
+  std::size_t projected_edges = 0;         ///< sum over receivers of their tile's list
+  std::size_t segments = 0;                ///< sum over receivers of the segments across the disk
+  std::size_t integrated = 0;              ///< receivers whose area was integrated
+  std::size_t slabs = 0;                   ///< of these, by slabs
+  std::size_t fused = 0;                   ///< of these, by rows
+  std::size_t overlapping = 0;             ///< of these, where more than two levels were met
+  std::size_t rays = 0, second_rays = 0;
+  std::size_t fallback = 0;  ///< receivers left to rays, see fallback_samples
+  std::size_t bytes = 0;     ///< of the band, its tree and all threads' lists at their longest
+};
+
+struct SilhouetteResult {
+  std::vector<float> visibility;    ///< one a pixel; 1 where no surface is seen
+  std::vector<std::int8_t> region;  ///< -1 not certified, 0 lit, 2 umbra or behind the light
+  std::vector<std::uint32_t>
+      open;  ///< with `integrate` false: pixels whose visibility is not known, ascending
+  std::vector<StageTime> stages;
+  SilhouetteCounts counts;
+};
+
+/// Cost: faces, plus band edges near each tile, plus per receiver its tile's list and s log s for s segments
+/// across the disk. On all cores of `rays`; the result does not depend on their number. Requires a light of
+/// radius > 0 (UsageError). Throws Cancelled.
+SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+                                       const SilhouetteOptions& options = {}, const Progress& progress = {});
+
+}  // namespace penumbra

@@ -1,0 +1,47 @@
+// Accurate rung, step 3 of 5: the edges of a tile's list as one receiver sees them, and the certificate.
+//
+// In: a tile's edges, a receiver x. Out: the segments that may cross the disk with a jump that is not 0,
+// projected from x onto the plane of the disk: p → x + (p - x) x.z/(x.z - p.z). What an edge hides beyond x
+// does not count, so edges are cut just below x's height (a hair of 2^-23 x.z, from where they project to
+// infinity for the disk's purposes).
+//
+// Certificate: if no edge of the band meets the disk, seen from x, the number of faces between x and the disk
+// is the same for all of its points; x is wholly lit or wholly in umbra, and one ray tells which. Edges are
+// only dismissed with a margin that covers rounding: an edge is near where it comes within `slack` of the
+// disk and its jump is not certainly 0. Errors of coordinates, at most u M each, grow by x.z/w, w = x.z -
+// p.z; the point of the segment that is nearest to the disk, computed from ends at most 2^24 M away, is off
+// by less than 2^-53 2^24 M times a small number: slack = 1e-6 + 2^-26 M bounds both.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "render/disk_area.h"
+#include "render/silhouette_list.h"
+
+namespace penumbra::detail {
+
+/// A segment in the plane of the disk, seen from the light's front; left minus right of a → b.
+struct Segment {
+  glm::dvec2 a, b;
+  int jump;
+};
+
+struct Projection {
+  Segment segment;
+  bool near;  ///< may meet the disk with a jump, by the certificate's margin
+};
+/// An end that two edges share projects to the same bits in both.
+Projection see(const BandEdge& edge, const Vec3& x, double slack);
+
+double certificate_slack(double extent);
+
+/// What one receiver sees: the segments that are near, have a jump, and are not wholly below its horizon.
+struct Sight {
+  std::vector<std::uint32_t> sifted;
+  std::vector<Segment> segments;
+  bool certain = false;  ///< no edge of the list meets the disk
+};
+void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out);
+
+}  // namespace penumbra::detail

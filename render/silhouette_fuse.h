@@ -1,0 +1,89 @@
+// Accurate rung, step 5 of 5: levels over the disk, and the area of the lowest.
+//
+// L(p) is the number of faces that hide p, relative to D's lowest point; its lowest level is what nothing
+// hides, or else everything is hidden (one ray tells). Three ways, by what the segments are like:
+//
+// - One chain that crosses D once without turning back (`chain`): two levels, and the exact integral of L
+//   (silhouette_integrate.h) gives the area.
+// - Few segments: their ends and crossings divide D into slabs between heights. Within a slab segments do not
+//   cross, each interval between neighbours is a trapezoid, and its width at the middle times the slab's
+//   height is its area; at the rim the slab's mean of √(1-y²) takes the place of the width. Exact for any
+//   number of levels.
+// - Many segments: rows at even distances with exact intervals, an area A_k for every level k, good to the
+// rows'
+//   spacing. The exact integral of L corrects the area of the lowest level as a control variate: with p its
+//   share,
+//     area = |D| p + c (∫ L - |D| mean L),   c = cov(lowest?, L) / var L   under the areas A_k,
+//   which is exact again where only two levels occur; rows only have to measure the overlap.
+//
+// Rays aim at two points of the lowest level far from the segments; the second serves where the first is
+// hidden, since a point may happen to lie near an edge.
+#pragma once
+
+#include <array>
+
+#include "render/silhouette_integrate.h"
+
+namespace penumbra::detail {
+
+enum class Fusion { kChain, kSlabs, kRows };
+
+struct Fused {
+  double area = 0.0;               ///< of the lowest level, 0 to |D|
+  int levels = 1;                  ///< how many were met
+  std::array<glm::dvec2, 2> aims;  ///< two points of the lowest level
+  Fusion way = Fusion::kChain;
+};
+
+/// For one receiver after the other, with memory kept between them.
+class Fuser {
+ public:
+  /// `rows`: how many where there are many segments. Cost for s segments: s for a chain, s² for slabs, s +
+  /// crossings log s for rows.
+  Fused fuse(const Cut& cut, const DiskPart& part, int rows);
+
+  Fused by_slabs(const Cut& cut, const DiskPart& part);
+  Fused by_rows(const Cut& cut, const DiskPart& part, int rows);
+
+ private:
+  struct Line {  ///< a segment upwards
+    double low, high, x, slope;
+    int change;  ///< of L from left to right
+    double at(double y) const { return x + slope * (y - low); }
+  };
+  struct Crossing {
+    double x;
+    int change;
+  };
+  struct Aim {
+    double room = 0.0;
+    glm::dvec2 at{0.0};
+  };
+  struct Row {
+    double y, height, left, right;
+    int first_level;
+  };
+
+  void make_lines(const Cut& cut);
+  void make_heights(const DiskPart& part, const Cut& cut);
+  void cross_rows(const Cut& cut, const DiskPart& part, int rows);
+  void begin();
+  void sweep(const Row& row, Crossing* first, Crossing* last);
+  void add_interval(const Row& row, double from, double to, int level);
+  Fused finish(Fusion way, double area_scale) const;
+
+  std::vector<Line> lines_;
+  std::vector<double> heights_;
+  std::vector<std::pair<int, int>> spans_;
+  std::vector<int> starts_;       ///< first crossing of each row
+  std::vector<int> left_levels_;  ///< at the left end of each row
+  std::vector<Crossing> crossings_;
+  std::vector<double> areas_;  ///< by level
+  std::array<Aim, 2> aims_;    ///< in the lowest level so far, in rows of either parity
+  int lowest_ = 0, highest_ = 0, parity_ = 0;
+};
+
+/// Closed form for one chain; false where it is none, or where there is little room beside it for a ray.
+bool fuse_chain(const Cut& cut, const DiskPart& part, Fused& out);
+
+}  // namespace penumbra::detail

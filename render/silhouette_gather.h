@@ -1,0 +1,98 @@
+// Accurate rung, step 2 of 5: which band edges a tile of receivers has to look at.
+//
+// In: the band, and up to 64 neighbouring receivers. Out: the edges that may be a silhouette across the disk
+// for one of them; what is left out certainly is none. An edge is left out where
+//  - it lies outside of a plane that bounds the receivers and the disk together (`Shaft`),
+//  - it lies below the tangent planes of all receivers, where those cut the disk,
+//  - its faces keep their sides for all receivers, and its jump is 0.
+// The same tests run over a tree of boxes first, each with bounds on its edges' planes, so that the cost of a
+// tile follows what it keeps.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "render/silhouette_domain.h"
+#include "render/silhouette_frame.h"
+
+namespace penumbra::detail {
+
+inline constexpr int kTile = 8;  ///< pixels a side
+inline constexpr int kShaftSides = 16;
+
+/// A receiver in the light's frame: in front of the light, and with some of it above the horizon.
+struct Receiver {
+  Vec3 x, normal;
+  Chord horizon;  ///< no_horizon where all of the disk is above the tangent plane
+  bool horizon_cuts = false;
+  std::uint32_t pixel = 0;
+};
+
+/// A convex region that holds the disk and all receivers: z ≤ top, and for 16 directions d around the light
+/// the plane d·(p.x, p.y) ≤ 1 + slope·p.z, which touches the disk and the receivers. With `horizon` also
+/// everything that is below all tangent planes counts as outside. Signs are decided with a margin, so that
+/// rounding keeps an edge rather than losing it.
+class Shaft {
+ public:
+  /// By the box of the receivers: loose, but cheap.
+  Shaft(std::span<const Receiver> receivers, double extent);
+  /// By the receivers themselves.
+  void tighten(std::span<const Receiver> receivers);
+
+  bool misses(const Vec3& low, const Vec3& high) const;
+  bool misses(const BandEdge& edge) const;
+  /// Both faces keep their sides for every receiver of the tile, and the jump is 0.
+  bool never_silhouette(const BandEdge& edge) const;
+
+  /// Plane k of the shaft, 0 to kShaftSides: normal·p + offset ≤ 0 inside; the last is the top.
+  struct Side {
+    Vec3 normal;
+    double offset;
+  };
+  Side side_plane(int k) const;
+  const Vec3& middle() const { return middle_; }
+  const Vec3& half() const { return half_; }
+  double margin() const { return margin_; }
+
+ private:
+  double side(int k, const Vec3& p) const;
+  bool below_horizons(const Vec3& p) const;
+
+  alignas(64) std::array<double, kShaftSides> slope_;
+  double top_, margin_;
+  Vec3 middle_, half_;  ///< box of the receivers
+  bool horizon_ = false;
+  Vec3 normal_low_, normal_high_;  ///< box of their normals
+  double lowest_ = 0.0;            ///< least normal·(receiver - middle)
+};
+
+/// Boxes over the band, eight children a node, along a Morton curve.
+class BandTree {
+ public:
+  /// Reorders the band's edges along the curve. Cost O(E log E).
+  explicit BandTree(Band& band);
+  /// True where `gather` finds nothing for certain, by the whole band's box.
+  bool misses(const Shaft& shaft) const;
+  /// Appends to `out`, in ascending order.
+  void gather(const Shaft& shaft, std::vector<std::uint32_t>& out) const;
+  std::size_t bytes() const;
+
+ private:
+  struct Node {
+    Vec3 low, high;                ///< of the edges
+    Vec3 normal_low, normal_high;  ///< of their faces' planes
+    double near_low, near_high;    ///< of the planes' values at the box's middle, tolerance included
+    bool open;                     ///< has an edge with one face only
+  };
+  Node node_of(std::size_t first, std::size_t last) const;
+  static Node joined(const Node* first, const Node* last);
+  static bool one_sided(const Node& node, const Shaft& shaft);
+  void visit(const Shaft& shaft, std::size_t level, std::size_t node, std::vector<std::uint32_t>& out) const;
+
+  const Band& band_;
+  std::vector<std::vector<Node>> levels_;  ///< leaves first
+};
+
+}  // namespace penumbra::detail

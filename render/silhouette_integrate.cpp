@@ -1,0 +1,94 @@
+#include "render/silhouette_integrate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+using glm::dvec2;
+
+double cross(const dvec2& p, const dvec2& q) {
+  return p.x * q.y - p.y * q.x;
+}
+
+/// An end of a segment on its way through the cuts.
+struct End {
+  dvec2 at;
+  bool moved = false;  ///< now on D's boundary
+  bool on_chord = false;
+};
+
+/// Cuts a → b to the disk. False where nothing is left.
+bool cut_to_disk(End& a, End& b) {
+  const bool in_a = glm::dot(a.at, a.at) < 1.0, in_b = glm::dot(b.at, b.at) < 1.0;
+  if (in_a && in_b) return true;
+  const dvec2 way = b.at - a.at;
+  const double length = glm::length(way);
+  if (!(length > 0.0)) return false;
+  const dvec2 d = way / length;
+  // Foot of the centre's perpendicular, from the end that is less far away.
+  const bool a_nearer = glm::dot(a.at, a.at) <= glm::dot(b.at, b.at);
+  const double distance = cross(a_nearer ? a.at : b.at, d);
+  const double half = std::sqrt(std::max(0.0, (1.0 - distance) * (1.0 + distance)));
+  const dvec2 foot = distance * dvec2(d.y, -d.x);
+  if (!in_a && !in_b) {
+    if (!(std::abs(distance) < 1.0) || !(glm::dot(a.at, d) < 0.0) || !(glm::dot(b.at, d) > 0.0)) return false;
+  }
+  if (!in_a) a = {foot - half * d, true, false};
+  if (!in_b) b = {foot + half * d, true, false};
+  return true;
+}
+
+/// Cuts what is left to the horizon's side. False where nothing is left.
+bool cut_to_horizon(End& a, End& b, const Chord& horizon) {
+  const double ha = height(horizon, a.at), hb = height(horizon, b.at);
+  if (ha > 0.0 && hb > 0.0) return true;
+  if (!(ha > 0.0) && !(hb > 0.0)) return false;
+  const dvec2 at = a.at + (ha / (ha - hb)) * (b.at - a.at);
+  (ha > 0.0 ? b : a) = {at, true, true};
+  return true;
+}
+
+}  // namespace
+
+void cut_segments(std::span<const Segment> segments, const DiskPart& part, Cut& out) {
+  out.segments.clear();
+  out.events.clear();
+  double sum = 0.0;
+  int changes = 0;
+  const auto cross_boundary = [&](const End& end, int change) {
+    if (!end.moved) return;
+    Event event{end.at, end.on_chord, change};
+    event.walked = part.walked(event);
+    sum -= change * event.walked;
+    changes += change;
+    out.events.push_back(event);
+  };
+  for (const Segment& s : segments) {
+    End a{s.a}, b{s.b};
+    if (!cut_to_disk(a, b)) continue;
+    if (part.is_cut() && !cut_to_horizon(a, b, part.horizon())) continue;
+    cross_boundary(a, -s.jump);
+    cross_boundary(b, s.jump);
+    sum += 0.5 * s.jump * cross(a.at, b.at);
+    out.segments.push_back({a.at, b.at, s.jump});
+  }
+  out.integral = sum;
+  out.closed = changes == 0;
+}
+
+bool is_one_chain(const Cut& cut) {
+  if (cut.events.size() != 2) return false;
+  dvec2 general(0.0);
+  const int size = std::abs(cut.segments.empty() ? 0 : cut.segments.front().jump);
+  for (const Segment& s : cut.segments) {
+    if (std::abs(s.jump) != size) return false;
+    general += s.jump > 0 ? s.b - s.a : s.a - s.b;
+  }
+  return std::all_of(cut.segments.begin(), cut.segments.end(),
+                     [&](const Segment& s) { return glm::dot(s.b - s.a, general) * s.jump >= 0.0; });
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,203 @@
+// The steps of the accurate rung, one by one.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "render/silhouette_fuse.h"
+#include "render/silhouette_gather.h"
+#include "render/silhouette_integrate.h"
+#include "render/silhouette_list.h"
+#include "tests/render/render_support.h"
+
+namespace penumbra::detail {
+namespace {
+
+using glm::dvec2;
+using penumbra::testing::Random;
+
+Chord random_horizon(Random& random) {
+  return {random.unit2(), random.uniform(-0.95, 0.95)};
+}
+
+TEST(DiskPart, WalksItsBoundary) {
+  Random random(5);
+  for (int i = 0; i < 400; ++i) {
+    const DiskPart part(i % 4 == 0 ? no_horizon() : random_horizon(random));
+    // Around D in small steps from the lowest point, by its ends at rising and falling heights.
+    const int n = 4000;
+    dvec2 last{0.0};
+    double sum = 0.0, off = 0.0;
+    bool started = false;
+    const auto step = [&](const dvec2& p, bool left) {
+      if (started) sum += 0.5 * (last.x * p.y - last.y * p.x);
+      started = true;
+      last = p;
+      const bool chord = part.is_cut() && std::abs(height(part.horizon(), p)) < 1e-9;
+      const Event e{p, chord, 1};
+      if (part.on_left(e) == left) off = std::max(off, std::abs(part.walked(e) - sum));
+    };
+    const auto at = [&](int k) {
+      return part.bottom() + (part.top() - part.bottom()) * 0.5 * (1.0 - std::cos(testing::kPi * k / n));
+    };
+    for (int k = 1; k < n; ++k) {
+      const auto [left, right] = part.span(at(k), DiskPart::half_width(at(k)));
+      if (k == 1) {
+        const double low = part.bottom();
+        last = {part.span(low, DiskPart::half_width(low)).second, low};
+        started = true;
+      }
+      step({right, at(k)}, false);
+    }
+    for (int k = n - 1; k > 0; --k) step({part.span(at(k), DiskPart::half_width(at(k))).first, at(k)}, true);
+    EXPECT_NEAR(sum, part.area(), 2e-3) << i;
+    EXPECT_LE(off, 2e-3) << i;
+  }
+}
+
+/// Closed outlines of random polygons, as faces would leave them: jump 2 inside.
+std::vector<Segment> random_polygons(Random& random, int count) {
+  std::vector<Segment> segments;
+  for (int p = 0; p < count; ++p) {
+    const dvec2 middle{random.uniform(-1, 1), random.uniform(-1, 1)};
+    const double size = random.spread(0.05, 2.0), start = random.uniform(0, 6.3);
+    const int corners = 3 + p % 4;
+    const auto corner = [&](int k) {
+      const double angle = start + 2.0 * testing::kPi * (k % corners) / corners;
+      return middle + size * dvec2(std::cos(angle), std::sin(angle));
+    };
+    for (int k = 0; k < corners; ++k) segments.push_back({corner(k), corner(k + 1), 2});
+  }
+  return segments;
+}
+
+/// Number of polygons over p (each edge with the inside on its left), by winding.
+int winding(const std::vector<Segment>& segments, const dvec2& p) {
+  int sum = 0;
+  for (const Segment& s : segments) {
+    if ((s.a.y <= p.y) == (s.b.y <= p.y)) continue;
+    const double x = s.a.x + (s.b.x - s.a.x) * (p.y - s.a.y) / (s.b.y - s.a.y);
+    if (x > p.x) sum += s.b.y > s.a.y ? 1 : -1;
+  }
+  return sum;
+}
+
+TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
+  Random random(17);
+  Fuser fuser;
+  double worst_rows = 0.0, worst_points = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const DiskPart part(i % 2 == 0 ? no_horizon() : random_horizon(random));
+    const std::vector<Segment> segments = random_polygons(random, 1 + i % 4);
+    Cut cut;
+    cut_segments(segments, part, cut);
+    ASSERT_TRUE(cut.closed);
+    if (cut.segments.empty()) continue;
+    const Fused slabs = fuser.by_slabs(cut, part), rows = fuser.by_rows(cut, part, 1024);
+    worst_rows = std::max(worst_rows, std::abs(slabs.area - rows.area));
+    // The lowest level by counting points.
+    std::map<int, int> counts;
+    const int n = 200;
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const dvec2 p{2.0 * (x + 0.5) / n - 1.0, 2.0 * (y + 0.5) / n - 1.0};
+        if (glm::dot(p, p) < 1.0 && height(part.horizon(), p) > 0.0) ++counts[winding(segments, p)];
+      }
+    const double counted = counts.begin()->second * 4.0 / (n * n);
+    // Neither a level too small for points, nor one that points miss.
+    if (counts.begin()->second > 20 && slabs.area > 0.02)
+      worst_points = std::max(worst_points, std::abs(slabs.area - counted));
+    for (const dvec2& aim : slabs.aims) {
+      EXPECT_LT(glm::dot(aim, aim), 1.0);
+      EXPECT_GE(height(part.horizon(), aim), -1e-9);
+    }
+    Fused chain;
+    if (fuse_chain(cut, part, chain)) {
+      EXPECT_NEAR(chain.area, slabs.area, 1e-9) << i;
+    }
+  }
+  std::printf("slabs against 1,024 rows %.2g, against counted points %.2g\n", worst_rows, worst_points);
+  EXPECT_LE(worst_rows, 2e-4);
+  EXPECT_LE(worst_points, 0.02) << "cells of 1/100 along boundaries of length below 20";
+}
+
+TEST(Integrate, IsExactForOneChord) {
+  Random random(23);
+  for (int i = 0; i < 500; ++i) {
+    const Chord chord{random.unit2(), random.uniform(-0.99, 0.99)};
+    const dvec2 foot = -chord.delta * chord.normal, d{chord.normal.y, -chord.normal.x};
+    // A band of faces beyond the chord, ends far outside of the disk.
+    const double reach = random.spread(3.0, 1e7);
+    const std::vector<Segment> segments{{foot - reach * d, foot + reach * d, -1}};
+    const DiskPart part(no_horizon());
+    Cut cut;
+    cut_segments(segments, part, cut);
+    Fused out;
+    if (!fuse_chain(cut, part, out)) continue;  // too near the rim for a ray
+    EXPECT_NEAR(out.area / testing::kPi, half_plane_area(chord.delta), 1e-9) << i;
+  }
+}
+
+/// Random triangles between light and receivers as a band.
+Band random_band(Random& random, int count, bool closed) {
+  Scene scene = testing::scene_in_light_frame(1.0, {});
+  std::vector<Vec3> points;
+  std::vector<IndexedTriangle> faces;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 middle{random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(0.5, 9)};
+    const double size = random.spread(0.01, 2.0);
+    const auto first = static_cast<std::uint32_t>(points.size());
+    for (int k = 0; k < 4; ++k) points.push_back(middle + random.point(size));
+    faces.push_back({first, first + 1, first + 2});
+    if (!closed) continue;
+    faces.push_back({first, first + 3, first + 1});
+    faces.push_back({first + 1, first + 3, first + 2});
+    faces.push_back({first + 2, first + 3, first});
+  }
+  scene.objects.push_back({"", testing::mesh_of(points, faces), Vec3(0.8), true});
+  return make_band(scene, UnitLight(scene.light));
+}
+
+TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
+  Random random(31);
+  std::size_t kept = 0, near = 0, listed = 0;
+  for (int round = 0; round < 40; ++round) {
+    Band band = random_band(random, 60, round % 2 == 0);
+    const BandTree tree(band);
+    std::vector<Receiver> receivers;
+    const Vec3 middle{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(3, 10)};
+    for (int i = 0; i < 16; ++i)
+      receivers.push_back(
+          {middle + random.point(round % 3 == 0 ? 2.0 : 0.1), {0, 0, -1}, no_horizon(), false, 0});
+    Shaft shaft(receivers, band.extent);
+    shaft.tighten(receivers);
+    std::vector<std::uint32_t> edges, narrowed, sifted;
+    tree.gather(shaft, edges);
+    EdgeList list, half;
+    list.assign(band, edges, shaft.middle());
+    const std::span<const Receiver> few(receivers.data(), 4);
+    Shaft narrow_shaft(few, band.extent);
+    narrow_shaft.tighten(few);
+    narrow(list, narrow_shaft, narrowed);
+    half.assign(list, narrowed);
+    for (std::size_t r = 0; r < receivers.size(); ++r) {
+      const Vec3& x = receivers[r].x;
+      const EdgeList& l = r < 4 ? half : list;
+      sift(l, x, sifted);
+      std::vector<std::uint32_t> singly;
+      for (std::uint32_t i = 0; i < l.size(); ++i)
+        if (sift_one(l, i, x)) singly.push_back(i);
+      ASSERT_EQ(sifted, singly);
+      std::size_t found = 0, expected = 0;
+      for (const std::uint32_t i : sifted) found += see(l[i], x, 1e-6).near ? 1 : 0;
+      for (const BandEdge& e : band.edges) expected += see(e, x, 1e-6).near ? 1 : 0;
+      ASSERT_EQ(found, expected) << "round " << round;
+      kept += sifted.size(), near += found, listed += l.size();
+    }
+  }
+  std::printf("%zu listed, %zu sifted, %zu near\n", listed, kept, near);
+  EXPECT_GT(near, 1000u);
+  EXPECT_LT(kept, listed);
+}
+
+}  // namespace
+}  // namespace penumbra::detail
