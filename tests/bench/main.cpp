@@ -118,7 +118,14 @@ void time_sizes(const std::string& name) {
 }  // namespace
 }  // namespace penumbra::bench
 
-int main() {
+// Without arguments everything; else the accurate rung alone, for the scenes named.
+int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) penumbra::bench::time_silhouettes(argv[i]);
+  if (argc > 1) return 0;
+  for (const char* name : {"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium",
+                           "speck-medium", "bunny-medium", "knot1-medium", "armadillo-medium",
+                           "refined_elephant-medium", "foliage-medium", "decorativePlant-medium"})
+    penumbra::bench::time_silhouettes(name);
   for (const char* name : {"cube-medium", "bunny-medium", "knot1-medium", "armadillo-medium"})
     penumbra::bench::time_scene(name);
   penumbra::bench::time_sizes("armadillo-medium");
