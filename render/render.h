@@ -2,7 +2,7 @@
 // calls.
 //
 //   surface_buffer.h  what the camera sees          (the same points for every method)
-//   visibility        by the chosen method          (reference.h, d_buffer.h, silhouette.h, hard shadow, none)
+//   visibility        by the chosen method          (reference.h, d_buffer.h, silhouette.h, hard, none)
 //   shading.h         visibility → RGB              (the same code for every method)
 #pragma once
 

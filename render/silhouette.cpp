@@ -108,7 +108,10 @@ void Evaluation::tile(int column, int row, Workspace& w) const {
   ++w.counts.tiles;
   w.counts.receivers += w.receivers.size();
   Shaft shaft(w.receivers, band_.extent);
-  if (!is_reached(shaft)) return light_up(w);
+  if (!is_reached(shaft)) {
+    ++w.counts.empty_tiles;
+    return light_up(w);
+  }
   w.edges.clear();
   if (!tree_.misses(shaft)) {
     shaft.tighten(w.receivers);

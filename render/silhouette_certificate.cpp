@@ -33,6 +33,7 @@ Projection see(const BandEdge& e, const Vec3& x, double slack) {
   const glm::dvec2 from(x);
   const glm::dvec2 pa = from + (a - from) * (x.z / wa), pb = from + (b - from) * (x.z / wb);
 
+  if (glm::dot(pa, pa) < 1.0 || glm::dot(pb, pb) < 1.0) return {{pa, pb, jump}, true};
   // Nearest point of the segment to the disk's centre.
   const glm::dvec2 s = pb - pa;
   const double length2 = glm::dot(s, s), along = -glm::dot(pa, s);

@@ -105,14 +105,10 @@ Fused Fuser::finish(Fusion way, double area_scale) const {
   return out;
 }
 
-void Fuser::make_lines(const Cut& cut) {
-  lines_.clear();
-  for (const Segment& s : cut.segments) {
-    const bool up = s.b.y > s.a.y;
-    const glm::dvec2 &low = up ? s.a : s.b, &high = up ? s.b : s.a;
-    if (!(high.y > low.y)) continue;
-    lines_.push_back({low.y, high.y, low.x, (high.x - low.x) / (high.y - low.y), up ? -s.jump : s.jump});
-  }
+void Fuser::add_line(const Segment& s) {
+  const bool up = s.b.y > s.a.y;
+  const glm::dvec2 &low = up ? s.a : s.b, &high = up ? s.b : s.a;
+  lines_.push_back({low.y, high.y, low.x, (high.x - low.x) / (high.y - low.y), up ? -s.jump : s.jump});
 }
 
 /// Ends, crossings, and where D's boundary has corners.
@@ -135,7 +131,9 @@ void Fuser::make_heights(const DiskPart& part, const Cut& cut) {
 }
 
 Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part) {
-  make_lines(cut);
+  lines_.clear();
+  for (const Segment& s : cut.segments)
+    if (s.a.y != s.b.y) add_line(s);
   make_heights(part, cut);
   begin();
   double rim_before = rim_integral(heights_.front());
@@ -172,9 +170,13 @@ void Fuser::cross_rows(const Cut& cut, const DiskPart& part, int rows) {
     if (part.on_left(e)) left_levels_[first_above(e.at.y)] -= e.change;
   for (int i = 1; i < rows; ++i) left_levels_[i] += left_levels_[i - 1];
 
+  lines_.clear();
   spans_.clear();
-  for (const Line& l : lines_) {
-    spans_.emplace_back(first_above(l.low), first_above(l.high));
+  for (const Segment& segment : cut.segments) {  // most that are short cross no row
+    const int a = first_above(segment.a.y), b = first_above(segment.b.y);
+    if (a == b) continue;
+    add_line(segment);
+    spans_.emplace_back(std::min(a, b), std::max(a, b));
     for (int i = spans_.back().first; i < spans_.back().second; ++i) ++starts_[i];
   }
   int sum = 0;
@@ -188,7 +190,6 @@ void Fuser::cross_rows(const Cut& cut, const DiskPart& part, int rows) {
 }
 
 Fused Fuser::by_rows(const Cut& cut, const DiskPart& part, int rows) {
-  make_lines(cut);
   cross_rows(cut, part, rows);
   begin();
   const double spacing = (part.top() - part.bottom()) / rows;

@@ -64,7 +64,7 @@ class Fuser {
     int first_level;
   };
 
-  void make_lines(const Cut& cut);
+  void add_line(const Segment& segment);
   void make_heights(const DiskPart& part, const Cut& cut);
   void cross_rows(const Cut& cut, const DiskPart& part, int rows);
   void begin();

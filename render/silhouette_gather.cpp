@@ -73,6 +73,36 @@ void tighten_slopes(const Receiver* receivers, std::size_t count, double* __rest
   for (int k = 0; k < kShaftSides; ++k) slope[k] = most[k];
 }
 
+/// Whether a box lies beyond one of the shaft's sides, d·p.xy - 1 - slope p.z > 0. All sides at once, without
+/// branches.
+PENUMBRA_VECTOR_CLONES
+bool box_is_beyond(const Vec3& low, const Vec3& high, const double* slope, double margin) {
+  const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
+  const double x0 = low.x, x1 = high.x, y0 = low.y, y1 = high.y, z0 = low.z, z1 = high.z;
+  int any = 0;
+  for (int k = 0; k < kShaftSides; ++k) {
+    const double x = cosine[k] > 0.0 ? cosine[k] * x0 : cosine[k] * x1;
+    const double y = sine[k] > 0.0 ? sine[k] * y0 : sine[k] * y1;
+    const double z = slope[k] > 0.0 ? slope[k] * z1 : slope[k] * z0;
+    any |= x + y - 1.0 - z > margin * (1.0 + std::abs(slope[k])) ? 1 : 0;
+  }
+  return any != 0;
+}
+
+/// The same for an edge.
+PENUMBRA_VECTOR_CLONES
+bool edge_is_beyond(const Vec3& a, const Vec3& b, const double* slope, double margin) {
+  const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
+  const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
+  int any = 0;
+  for (int k = 0; k < kShaftSides; ++k) {
+    const double at_a = cosine[k] * ax + sine[k] * ay - 1.0 - slope[k] * az;
+    const double at_b = cosine[k] * bx + sine[k] * by - 1.0 - slope[k] * bz;
+    any |= (at_a < at_b ? at_a : at_b) > margin * (1.0 + std::abs(slope[k])) ? 1 : 0;
+  }
+  return any != 0;
+}
+
 /// Half the range of n·p over a box of the given half size.
 double reach(const Vec3& n, const Vec3& half) {
   return std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
@@ -113,10 +143,6 @@ Shaft::Side Shaft::side_plane(int k) const {
   return {{kDirections.x[k], kDirections.y[k], -slope_[k]}, -1.0};
 }
 
-double Shaft::side(int k, const Vec3& p) const {
-  return kDirections.x[k] * p.x + kDirections.y[k] * p.y - 1.0 - slope_[k] * p.z;
-}
-
 bool Shaft::below_horizons(const Vec3& p) const {
   const Vec3 d = p - middle_;
   double highest = 0.0;
@@ -125,19 +151,12 @@ bool Shaft::below_horizons(const Vec3& p) const {
 }
 
 bool Shaft::misses(const Vec3& low, const Vec3& high) const {
-  if (low.z > top_ + margin_) return true;
-  for (int k = 0; k < kShaftSides; ++k) {
-    const Vec3 nearest{kDirections.x[k] > 0.0 ? low.x : high.x, kDirections.y[k] > 0.0 ? low.y : high.y,
-                       slope_[k] > 0.0 ? high.z : low.z};
-    if (side(k, nearest) > margin_ * (1.0 + std::abs(slope_[k]))) return true;
-  }
-  return false;
+  return low.z > top_ + margin_ || box_is_beyond(low, high, slope_.data(), margin_);
 }
 
 bool Shaft::misses(const BandEdge& e) const {
   if (std::min(e.a.z, e.b.z) > top_ + margin_) return true;
-  for (int k = 0; k < kShaftSides; ++k)
-    if (std::min(side(k, e.a), side(k, e.b)) > margin_ * (1.0 + std::abs(slope_[k]))) return true;
+  if (edge_is_beyond(e.a, e.b, slope_.data(), margin_)) return true;
   return horizon_ && below_horizons(e.a) && below_horizons(e.b);
 }
 

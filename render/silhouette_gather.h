@@ -57,7 +57,6 @@ class Shaft {
   double margin() const { return margin_; }
 
  private:
-  double side(int k, const Vec3& p) const;
   bool below_horizons(const Vec3& p) const;
 
   alignas(64) std::array<double, kShaftSides> slope_;

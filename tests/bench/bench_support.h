@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "render/error_figures.h"
@@ -48,5 +49,12 @@ struct Truth {
     return error_figures(visibility, first, second, penumbra).rmse;
   }
 };
+
+/// d_buffer_bench.cpp: the D-buffer against rays of equal error for scenes of data/scenes, and its cost as it
+/// grows.
+void bench_d_buffer(const std::vector<std::string>& scenes);
+
+/// silhouette_bench.cpp: the accurate rung against rays, for one scene of data/scenes.
+void time_silhouettes(const std::string& name);
 
 }  // namespace penumbra::bench
