@@ -26,7 +26,6 @@ class PenumbraExtruder {
   PenumbraExtruder(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
                    const ExtrudeOptions& options)
       : mesh_(mesh),
-        light_(light),
         classes_(classes),
         options_(options),
         reach_(detail::shadow_reach(mesh, light, options)),
@@ -148,7 +147,6 @@ class PenumbraExtruder {
   }
 
   const TriangleMesh& mesh_;
-  const DiskLight& light_;
   const Classification& classes_;
   const ExtrudeOptions& options_;
   detail::ShadowReach reach_;

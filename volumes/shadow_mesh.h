@@ -16,8 +16,9 @@ enum class ShadowKind : std::uint8_t {
   kPenumbraCone,   ///< chorded or circumscribed cone at a vertex; source: vertex
   kUmbraFacet,     ///< plane through an edge with caster and light on the same side; source: edge
   kUmbraCap,       ///< part of a caster's face that bounds its umbra; source: face
-  kCell,  ///< boundary of a penumbra cell, or of the umbra of a star-shaped component's kernel; source: the
-          ///< face, or the first face of the component, it belongs to
+  /// Boundary of a penumbra cell, or of the umbra of a star-shaped component's kernel; source: the face, or
+  /// the first face of the component, it belongs to.
+  kCell,
   kFarCap,  ///< where a volume is cut off beyond the scene's bound; source as for kCell
 };
 const char* name_of(ShadowKind kind);

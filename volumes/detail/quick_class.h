@@ -38,16 +38,16 @@ class QuickClassifier {
     const double tangency = d * d * normal2_ - radius2_ * glm::dot(across, across);
     const double sides2 = glm::dot(e1, e1) * glm::dot(e2, e2);
     const double reach2 = std::max(glm::dot(w, w), radius2_), q2 = sides2 * (reach2 * normal2_);
-    // Without branches but for the rare one: which class it is, no processor can foresee.
-    const bool sure = (std::abs(tangency) > kBound * q2) & (sides2 >= 0x1p-1000) & (reach2 >= 0x1p-1000) &
-                      within(q2, 0x1p-900, 0x1p900) & usable_;
+    const bool sure = std::abs(tangency) > kBound * q2 && sides2 >= 0x1p-1000 && reach2 >= 0x1p-1000 &&
+                      within(q2, 0x1p-900, 0x1p900) && usable_;
     if (!sure) return std::nullopt;
+    // Without a branch: which class it is, no processor can foresee.
     const int misses_disk = tangency > 0.0, in_front = d > 0.0;
     return static_cast<FaceClass>(static_cast<int>(FaceClass::kMixed) + misses_disk * (2 * in_front - 1));
   }
 
  private:
-  static bool within(double x, double low, double high) { return (x >= low) & (x <= high); }
+  static bool within(double x, double low, double high) { return x >= low && x <= high; }
 
   Vec3 center_, normal_;
   double radius2_, normal2_;
