@@ -2,8 +2,8 @@
 // calls.
 //
 //   surface_buffer.h  what the camera sees          (the same points for every method)
-//   visibility        by the chosen method          (reference.h, d_buffer.h, hard shadow, none)
-//   shading.h         visibility → RGB              (the same code for every method)
+//   visibility        by the chosen method          (reference.h, d_buffer.h, occlusion_textures.h, hard
+//   shadow, none) shading.h         visibility → RGB              (the same code for every method)
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,6 +15,7 @@
 #include "render/d_buffer.h"
 #include "render/gl/context.h"
 #include "render/image.h"
+#include "render/occlusion_textures.h"
 #include "render/reference.h"
 #include "render/scene.h"
 #include "render/stage_clock.h"
@@ -22,7 +23,7 @@
 
 namespace penumbra {
 
-enum class Method { kNone, kHard, kDBuffer, kReference };
+enum class Method { kNone, kHard, kDBuffer, kOcclusionTextures, kReference };
 Method method_of(const std::string& name);  ///< throws UsageError that lists the names
 const char* name_of(Method method);
 std::vector<std::string> method_names();
@@ -35,6 +36,7 @@ struct RenderOptions {
   gl::Backend backend = gl::Backend::kOsMesa;
   ReferenceOptions reference;
   DBufferOptions d_buffer;
+  OcclusionOptions occlusion;
   Progress progress;
 };
 
