@@ -35,9 +35,10 @@ double MipPyramid::bilinear(std::size_t level, double x, double y) const {
   return low + fy * (high - low);
 }
 
-double MipPyramid::mean(double x, double y, double side) const {
+double MipPyramid::mean(const TexelSquare& s) const {
   const double top = static_cast<double>(levels_.size() - 1);
-  const double lambda = std::clamp(std::log2(side), 0.0, top);
+  const double x = s.x + 0.5 * s.side, y = s.y + 0.5 * s.side;
+  const double lambda = std::clamp(std::log2(s.side), 0.0, top);
   const auto level = static_cast<std::size_t>(lambda);
   const double share = lambda - static_cast<double>(level);
   const double fine = bilinear(level, x, y);
@@ -45,8 +46,11 @@ double MipPyramid::mean(double x, double y, double side) const {
   return (fine + share * (bilinear(level + 1, x, y) - fine)) / kFixedOne;
 }
 
-double MipPyramid::covered(const TexelBox& box) const {
-  return covered_by_squares(box, [this](double x, double y, double side) { return mean(x, y, side); });
+double MipPyramid::covered(const TexelBox& any_box) const {
+  const double size = static_cast<double>(1 << (levels_.size() - 1));
+  const TexelBox box = clipped(any_box, size);
+  if (box.empty()) return 0.0;
+  return covered_by_squares(box, size, [this](const TexelSquare& s) { return mean(s); });
 }
 
 std::size_t MipPyramid::bytes() const {

@@ -16,12 +16,13 @@ class MipPyramid {
  public:
   /// `texels`: size² values, row by row; size is a power of two. O(size²).
   MipPyramid(std::span<const std::uint8_t> texels, int size);
-  /// Eight reads for a square. Precondition: the box lies within the texture.
-  double covered(const TexelBox& box) const;
+  /// Eight reads for a square. What is left of a box at the border is read by smaller squares: a level that
+  /// reached beyond it would see too little.
+  double covered(const TexelBox& any_box) const;
   std::size_t bytes() const;
 
  private:
-  double mean(double x, double y, double side) const;
+  double mean(const TexelSquare& square) const;
   double bilinear(std::size_t level, double x, double y) const;
   std::vector<std::vector<std::uint16_t>> levels_;
 };

@@ -18,15 +18,14 @@ class NBuffer {
  public:
   /// `texels`: size² values, row by row; size is a power of two. O(size² log size).
   NBuffer(std::span<const std::uint8_t> texels, int size);
-  /// Eight reads for a square, four where its side is a power of two. Precondition: the box lies within the
-  /// texture. Where the larger of two boxes juts out it is pushed inside.
+  /// Eight reads for a square, four where its side is a power of two.
   double covered(const TexelBox& box) const;
   std::size_t bytes() const;
 
  private:
-  double mean(double x, double y, double side) const;
+  double mean(const TexelSquare& square) const;
   double box_mean(std::size_t level, double x, double y) const;
-  /// Only boxes within the texture: level l is (size - 2^l + 1)² values.
+  /// Level l is (size + 2^l - 1)² values: every box that touches the texture, the first at 1 - 2^l.
   std::vector<std::vector<std::uint16_t>> levels_;
   int size_;
 };

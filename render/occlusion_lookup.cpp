@@ -61,7 +61,6 @@ class FilteredSlices : public OcclusionLookup {
         half_(space.half),
         origin_(-frustum.low * texels_per_unit(frustum, options)),
         per_thickness_(1.0 / frustum.thickness),
-        size_(options.texture_size),
         rule_(options.combine) {
     for (int i = 0; i < frustum.count; ++i) {
       const double depth = frustum.plane(i);
@@ -100,8 +99,7 @@ class FilteredSlices : public OcclusionLookup {
     for (const KernelPart& part : parts_) {
       const TexelBox box{middle.x + part.x0 * hx, middle.y + part.y0 * hy, middle.x + part.x1 * hx,
                          middle.y + part.y1 * hy};
-      const TexelBox seen = clipped(box, size_);
-      if (!seen.empty()) sum += part.share * filter.covered(seen) / box.area();
+      sum += part.share * filter.covered(box) / box.area();
     }
     return std::clamp(sum, 0.0, 1.0);
   }
@@ -110,7 +108,7 @@ class FilteredSlices : public OcclusionLookup {
   std::vector<Plane> planes_;
   std::vector<KernelPart> parts_;
   glm::dvec2 half_, origin_;
-  double per_thickness_, size_;
+  double per_thickness_;
   OcclusionCombine rule_;
 };
 

@@ -31,7 +31,9 @@ SummedArea::SummedArea(std::span<const std::uint8_t> texels, int size) : size_(s
   }
 }
 
-double SummedArea::covered(const TexelBox& box) const {
+double SummedArea::covered(const TexelBox& any_box) const {
+  const TexelBox box = clipped(any_box, size_);
+  if (box.empty()) return 0.0;
   const Between x0 = between(box.x0, size_), x1 = between(box.x1, size_), y0 = between(box.y0, size_),
                 y1 = between(box.y1, size_);
   const std::size_t stride = static_cast<std::size_t>(size_) + 1;

@@ -17,8 +17,8 @@ class SummedArea {
  public:
   /// `texels`: size² values, row by row. O(size²).
   SummedArea(std::span<const std::uint8_t> texels, int size);
-  /// Sixteen reads. Precondition: the box lies within the texture.
-  double covered(const TexelBox& box) const;
+  /// Sixteen reads.
+  double covered(const TexelBox& any_box) const;
   std::size_t bytes() const { return sums_.size() * sizeof(sums_[0]); }
 
  private:
