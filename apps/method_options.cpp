@@ -107,6 +107,9 @@ void add_occlusion_options(CLI::App& command, OcclusionOptions& options) {
   add_choice(command, "--coverage", options.coverage, slice_coverages(),
              "Texels by their centers or by eight samples")
       ->group(group);
+  add_choice(command, "--slice-faces", options.faces, slice_faces(),
+             "Which faces of closed casters are drawn: all, or what faces the light")
+      ->group(group);
   add_cop_offset(command, options, group);
 }
 

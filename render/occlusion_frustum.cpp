@@ -53,14 +53,13 @@ CasterExtent caster_extent(const TriangleMesh& mesh, const SliceSpace& space) {
   points.reserve(mesh.positions().size());
   for (const Vec3& p : mesh.positions()) points.push_back(space.to_light(p));
   CasterExtent out;
-  bool cut = false;
   for (const Vec3& p : points) {
     if (p.z >= kNearSlice)
       out.points.push_back(p);
     else
-      cut = true;
+      out.cut = true;
   }
-  if (cut)
+  if (out.cut)
     for (const IndexedTriangle& t : mesh.triangles())
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 &a = points[t[k]], &b = points[t[(k + 1) % 3]];

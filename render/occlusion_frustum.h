@@ -40,6 +40,7 @@ struct DepthRange {
 struct CasterExtent {
   std::vector<Vec3> points;  ///< vertices and where edges meet z = kNearSlice
   DepthRange depth;
+  bool cut = false;  ///< a part of it is not
 };
 CasterExtent caster_extent(const TriangleMesh& mesh, const SliceSpace& space);
 

@@ -104,14 +104,15 @@ std::vector<SliceTexels> OcclusionMasks::read_back(int targets, const OcclusionO
 }
 
 std::vector<SliceTexels> OcclusionMasks::draw(const SliceFrustum& frustum, const glm::mat3& axes,
-                                              const glm::vec3& offset, const std::vector<bool>& fills_next,
+                                              const glm::vec3& offset,
+                                              const std::vector<CasterDrawing>& drawings,
                                               const OcclusionOptions& options, StageClock& clock) {
   const int targets = options.slices / 4;
   prepare_targets(options.texture_size, targets);
   gl_.Viewport(0, 0, options.texture_size, options.texture_size);
   gl_.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   gl_.Disable(GL_DEPTH_TEST);
-  gl_.Disable(GL_CULL_FACE);
+  gl_.CullFace(GL_FRONT);  // seen along right × up, which turns windings over
   gl_.Enable(GL_CLIP_DISTANCE0);
   gl_.Enable(GL_COLOR_LOGIC_OP);
   gl_.LogicOp(GL_OR);
@@ -120,11 +121,13 @@ std::vector<SliceTexels> OcclusionMasks::draw(const SliceFrustum& frustum, const
   gl_.BindVertexArray(array_);
   const int samples = options.coverage == SliceCoverage::kArea ? kAreaSamples : 1;
   for (std::size_t i = 0; i < casters_.size(); ++i) {
-    gl_.Uniform1i(program_.uniform("fills_next"), fills_next[i]);
+    gl_.Uniform1i(program_.uniform("fills_next"), drawings[i].fills_next);
+    if (drawings[i].front_only) gl_.Enable(GL_CULL_FACE);
     const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(casters_[i].first_index) *
                                                       sizeof(std::uint32_t));
     gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(casters_[i].index_count), GL_UNSIGNED_INT,
                               first, samples);
+    gl_.Disable(GL_CULL_FACE);
   }
   gl_.Disable(GL_COLOR_LOGIC_OP);
   gl_.Disable(GL_CLIP_DISTANCE0);

@@ -24,14 +24,20 @@ struct MaskRange {
   std::uint32_t first_index, index_count;
 };
 
+/// How one caster is drawn.
+struct CasterDrawing {
+  bool fills_next = false;  ///< into the next slice too
+  bool front_only = false;  ///< only faces towards the center of projection
+};
+
 class OcclusionMasks {
  public:
   OcclusionMasks(const gl::Functions& gl, const std::vector<glm::vec3>& points,
                  const std::vector<std::uint32_t>& indices, std::vector<MaskRange> casters);
 
-  /// The uploaded points are at axes · point + offset in the frustum's space. `fills_next`: one per caster.
+  /// The uploaded points are at axes · point + offset in the frustum's space. `drawings`: one per caster.
   std::vector<SliceTexels> draw(const SliceFrustum& frustum, const glm::mat3& axes, const glm::vec3& offset,
-                                const std::vector<bool>& fills_next, const OcclusionOptions& options,
+                                const std::vector<CasterDrawing>& drawings, const OcclusionOptions& options,
                                 StageClock& clock);
 
  private:

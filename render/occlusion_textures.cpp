@@ -37,7 +37,7 @@ struct OcclusionTextures::Impl {
   struct Plan {
     std::vector<detail::CasterExtent> extents;  ///< one per caster
     detail::SliceFrustum frustum;
-    std::vector<bool> fills_next;  ///< one per caster
+    std::vector<detail::CasterDrawing> drawings;  ///< one per caster
     bool nothing_casts = false;
   };
   Plan plan(const detail::SliceSpace& space, const OcclusionOptions& options) const;
@@ -94,10 +94,13 @@ OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceS
       for (const Vec3& p : object.mesh.positions())
         depth.add(std::max(space.to_light(p).z, detail::kNearSlice));
   plan.frustum = detail::fit_frustum(plan.extents, depth, space, options);
-  for (std::size_t i = 0; i < casters.size(); ++i)
-    plan.fills_next.push_back(options.thin_fix == ThinFix::kOn ||
-                              (options.thin_fix == ThinFix::kAuto &&
-                               detail::may_leak(thickness[i], plan.extents[i], space, plan.frustum)));
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    const bool leaks = options.thin_fix == ThinFix::kAuto &&
+                       detail::may_leak(thickness[i], plan.extents[i], space, plan.frustum);
+    const bool solid = casters[i]->is_closed() && !plan.extents[i].cut;
+    plan.drawings.push_back({.fills_next = leaks || options.thin_fix == ThinFix::kOn,
+                             .front_only = solid && options.faces == SliceFaces::kFront});
+  }
   return plan;
 }
 
@@ -133,11 +136,12 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
     const LightFrame& f = space.light.axes;
     const glm::mat3 axes(glm::transpose(glm::dmat3(f.u, f.v, f.w)));
     const auto slices =
-        masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.fills_next, options, clock);
+        masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
     arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
     clock.finish("prefilter");
     const auto used = std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); });
-    const auto thin = std::count(plan.fills_next.begin(), plan.fills_next.end(), true);
+    const auto thin =
+        std::count_if(plan.drawings.begin(), plan.drawings.end(), [](const auto& d) { return d.fills_next; });
     frame.counts["slices_in_use"] = used;
     frame.counts["thin_casters"] = thin;
     frame.counts["slice_thickness"] = plan.frustum.thickness / space.scale;
@@ -188,6 +192,12 @@ std::span<const NamedValue<SliceRange>> slice_ranges() {
 std::span<const NamedValue<SliceCoverage>> slice_coverages() {
   static constexpr NamedValue<SliceCoverage> kNames[] = {{SliceCoverage::kBinary, "binary"},
                                                          {SliceCoverage::kArea, "area"}};
+  return kNames;
+}
+
+std::span<const NamedValue<SliceFaces>> slice_faces() {
+  static constexpr NamedValue<SliceFaces> kNames[] = {{SliceFaces::kAll, "all"},
+                                                      {SliceFaces::kFront, "front"}};
   return kNames;
 }
 

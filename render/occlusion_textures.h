@@ -52,12 +52,17 @@ enum class SliceCoverage {
   kBinary,  ///< a texel is covered or not, by its center
   kArea,    ///< eight samples a texel
 };
+enum class SliceFaces {
+  kAll,    ///< every face, as the paper
+  kFront,  ///< of closed casters wholly in front of the light only what faces the center of projection
+};
 std::span<const NamedValue<OcclusionFilter>> occlusion_filters();
 std::span<const NamedValue<OcclusionCombine>> occlusion_combines();
 std::span<const NamedValue<OcclusionKernel>> occlusion_kernels();
 std::span<const NamedValue<ThinFix>> thin_fixes();
 std::span<const NamedValue<SliceRange>> slice_ranges();
 std::span<const NamedValue<SliceCoverage>> slice_coverages();
+std::span<const NamedValue<SliceFaces>> slice_faces();
 
 struct OcclusionOptions {
   int slices = 16;         ///< 4, 8, 12 or 16, of equal thickness
@@ -71,9 +76,10 @@ struct OcclusionOptions {
   ThinFix thin_fix = ThinFix::kOff;
   SliceRange range = SliceRange::kScene;
   SliceCoverage coverage = SliceCoverage::kBinary;
+  SliceFaces faces = SliceFaces::kFront;
   /// Distance of the center of projection behind the light, scene units, > 0; infinity is orthographic;
   /// nothing: as far as the frustum through the light's border contains the casters.
-  std::optional<double> cop_offset;
+  std::optional<double> cop_offset = {};
 };
 
 struct OcclusionFrame {

@@ -54,6 +54,7 @@ nlohmann::json to_json(const OcclusionOptions& o) {
           {"thin_fix", name_in(thin_fixes(), o.thin_fix)},
           {"slice_range", name_in(slice_ranges(), o.range)},
           {"coverage", name_in(slice_coverages(), o.coverage)},
+          {"slice_faces", name_in(slice_faces(), o.faces)},
           {"cop_offset", offset}};
 }
 
