@@ -8,6 +8,7 @@
 
 #include "render/render.h"
 #include "tests/bench/bench_support.h"
+#include "tests/bench/occlusion_bench.h"
 
 namespace penumbra::bench {
 namespace {
@@ -118,7 +119,11 @@ void time_sizes(const std::string& name) {
 }  // namespace
 }  // namespace penumbra::bench
 
-int main() {
+int main(int argc, char** argv) {
+  // `./run bench occlusion` runs only that part.
+  const std::string only = argc > 1 ? argv[1] : "";
+  if (only.empty() || only == "occlusion") penumbra::bench::bench_occlusion_textures();
+  if (only == "occlusion") return 0;
   for (const char* name : {"cube-medium", "bunny-medium", "knot1-medium", "armadillo-medium"})
     penumbra::bench::time_scene(name);
   penumbra::bench::time_sizes("armadillo-medium");
