@@ -73,10 +73,12 @@ class FilteredSlices : public OcclusionLookup {
 
   double visibility(const Vec3& p, double above) const override {
     Combination combination(rule_, above);
+    const double per_depth = 1.0 / p.z;
+    const glm::dvec2 slope = glm::dvec2(p) * per_depth;
     for (std::size_t i = 0; i < planes_.size() && planes_[i].depth < p.z; ++i) {
       if (!filters_[i]) continue;
       const double fade = std::min(1.0, (p.z - planes_[i].depth) * per_thickness_);
-      combination.hide(fade * hidden(*filters_[i], planes_[i], p));
+      combination.hide(fade * hidden(*filters_[i], planes_[i], slope, per_depth));
     }
     return combination.left();
   }
@@ -90,10 +92,9 @@ class FilteredSlices : public OcclusionLookup {
  private:
   /// The share of the light that one slice hides. Kernels are at least a texel wide: a smaller one would see
   /// single texels.
-  double hidden(const Filter& filter, const Plane& plane, const Vec3& p) const {
-    const double near = plane.depth / p.z;
-    const glm::dvec2 middle = origin_ + glm::dvec2(p) * near * plane.texels_per_unit;
-    const glm::dvec2 half = half_ * (1.0 - near) * plane.texels_per_unit;
+  double hidden(const Filter& filter, const Plane& plane, const glm::dvec2& slope, double per_depth) const {
+    const glm::dvec2 middle = origin_ + slope * plane.depth * plane.texels_per_unit;
+    const glm::dvec2 half = half_ * (1.0 - plane.depth * per_depth) * plane.texels_per_unit;
     const double hx = std::max(half.x, 0.5), hy = std::max(half.y, 0.5);
     double sum = 0.0;
     for (const KernelPart& part : parts_) {
