@@ -6,6 +6,7 @@
 #include "apps/options.h"
 #include "apps/outputs.h"
 #include "apps/reports.h"
+#include "render/area_light.h"
 
 namespace penumbra::apps {
 namespace {
@@ -62,6 +63,7 @@ std::string table_row(std::size_t number, const SceneObject& object, const Class
 void run(const Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
+  require_disk(scene, "penumbra classify");
   nlohmann::json report = nlohmann::json::array();
   std::string table =
       "object     faces     front     mixed      none    umbra  penumbra    band    filter interval    exact "

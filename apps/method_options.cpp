@@ -1,6 +1,8 @@
 #include "apps/method_options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
 #include <span>
 
 #include "render/d_buffer.h"
@@ -73,12 +75,65 @@ void add_silhouette_options(CLI::App& command, SilhouetteOptions& options) {
       ->group("Method silhouette: exact area between the edges that each pixel sees (CPU)");
 }
 
+/// `auto`, `orthographic` or a number greater than 0.
+void add_cop_offset(CLI::App& command, OcclusionOptions& options, const char* group) {
+  const auto set = [&options](const std::string& text) {
+    if (text == "auto") return options.cop_offset.reset();
+    double value = std::numeric_limits<double>::infinity();
+    const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
+    if (!number && text != "orthographic")
+      throw CLI::ValidationError("--cop-offset",
+                                 "'" + text + "' is none of auto, orthographic, a number > 0");
+    options.cop_offset = number ? value : std::numeric_limits<double>::infinity();
+  };
+  command
+      .add_option_function<std::string>("--cop-offset", set,
+                                        "Distance of the center of projection behind the light, scene units "
+                                        "(auto: as far as the frustum contains the casters; orthographic)")
+      ->default_str("auto")
+      ->type_name("WORD|NUMBER")
+      ->group(group);
+}
+
+void add_occlusion_options(CLI::App& command, OcclusionOptions& options) {
+  const char* group = "Method occlusion-textures: prefiltered slices parallel to the light";
+  command.add_option("--slices", options.slices, "Slices of the scene")
+      ->check(CLI::IsMember({4, 8, 12, 16}))
+      ->capture_default_str()
+      ->group(group);
+  command.add_option("--texture-size", options.texture_size, "Texels a side of each slice")
+      ->check(CLI::IsMember({128, 256, 512, 1024}))
+      ->capture_default_str()
+      ->group(group);
+  add_choice(command, "--filter", options.filter, occlusion_filters(),
+             "How a slice is averaged over the light")
+      ->group(group);
+  add_choice(command, "--combine", options.combine, occlusion_combines(), "How slices add up")->group(group);
+  add_choice(command, "--kernel", options.kernel, occlusion_kernels(),
+             "A disk light as one square of equal area or as strips")
+      ->group(group);
+  add_choice(command, "--thin-fix", options.thin_fix, thin_fixes(),
+             "Draw each slice into the next one too; auto: for open and thin objects")
+      ->group(group);
+  add_choice(command, "--slice-range", options.range, slice_ranges(),
+             "Depths that are sliced: of all or of casters")
+      ->group(group);
+  add_choice(command, "--coverage", options.coverage, slice_coverages(),
+             "Texels by their centers or by eight samples")
+      ->group(group);
+  add_choice(command, "--slice-faces", options.faces, slice_faces(),
+             "Which faces of closed casters are drawn: all, or what faces the light")
+      ->group(group);
+  add_cop_offset(command, options, group);
+}
+
 }  // namespace
 
 void add_method_options(CLI::App& command, RenderOptions& options) {
   add_reference_options(command, options.reference);
   add_d_buffer_options(command, options.d_buffer);
   add_silhouette_options(command, options.silhouette);
+  add_occlusion_options(command, options.occlusion);
 }
 
 }  // namespace penumbra::apps

@@ -12,6 +12,7 @@
 #include "apps/outputs.h"
 #include "apps/reports.h"
 #include "mesh/error.h"
+#include "render/area_light.h"
 #include "volumes/checks.h"
 
 namespace penumbra::apps {
@@ -172,6 +173,7 @@ void run(const Arguments& arguments) {
   check(arguments);
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
+  require_disk(scene, "penumbra volumes");
   const Volumes volumes = build_volumes(arguments, scene);
   if (arguments.common.verbose) say(volumes.objects);
   write(arguments, volumes);

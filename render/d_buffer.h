@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "render/gl/context.h"
+#include "render/named_value.h"
 #include "render/scene.h"
 #include "render/stage_clock.h"
 #include "render/surface_buffer.h"
@@ -38,23 +39,11 @@ enum class CenterTest {
 };
 enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps
 
-/// A word of the command line and of --stats, and the value it stands for.
-template <class Value>
-struct NamedValue {
-  Value value;
-  const char* name;
-};
+/// The words for these.
 std::span<const NamedValue<DBufferContents>> d_buffer_contents();
 std::span<const NamedValue<VisibilityCurve>> visibility_curves();
 std::span<const NamedValue<Conflict>> conflicts();
 std::span<const NamedValue<CenterTest>> center_tests();
-
-template <class Value>
-const char* name_in(std::span<const NamedValue<Value>> names, Value value) {
-  for (const auto& n : names)
-    if (n.value == value) return n.name;
-  return "?";
-}
 
 struct DBufferOptions {
   int size = 1024;  ///< texels a side of each target, 16 to 8192

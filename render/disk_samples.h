@@ -1,4 +1,4 @@
-// Stratified samples of the unit disk, the same for every machine and thread count.
+// Stratified samples of the unit square and the unit disk, the same for every machine and thread count.
 #pragma once
 
 #include <cstdint>
@@ -50,13 +50,20 @@ struct Strata {
   int rows = 1, columns = 1;
 };
 
-/// Sample `i` of the pixel whose stream is `key`.
-inline DiskPoint disk_sample(std::uint32_t key, std::uint32_t i, float column, float row, float per_column,
-                             float per_row) {
+/// Sample `i` of the pixel whose stream is `key`, in the unit square.
+inline DiskPoint stratum_sample(std::uint32_t key, std::uint32_t i, float column, float row, float per_column,
+                                float per_row) {
   const std::uint32_t h = mix(key + i * 0x9e3779b9u);
   const float s = (column + unit_float(h)) * per_column;
   const float t = (row + unit_float(mix(h ^ 0x68bc21ebu))) * per_row;
-  return concentric_disk(s, t);
+  return {s, t};
+}
+
+/// The same on the unit disk.
+inline DiskPoint disk_sample(std::uint32_t key, std::uint32_t i, float column, float row, float per_column,
+                             float per_row) {
+  const DiskPoint p = stratum_sample(key, i, column, row, per_column, per_row);
+  return concentric_disk(p.x, p.y);
 }
 
 /// The stream of a pixel: differs in every bit with seed and pixel.

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <mutex>
 
+#include "render/area_light.h"
 #include "render/disk_samples.h"
 #include "render/ray_scene_impl.h"
 #include "render/vector_clones.h"
@@ -31,13 +32,13 @@ struct StratumTable {
 
 /// The light and one receiver in the local frame, float.
 struct LocalLight {
-  glm::vec3 center, u, v;  ///< u and v span the disk, their length is its radius
+  glm::vec3 center, u, v;  ///< u and v are half axes of the disk or the rectangle
+  bool disk;
 };
 
-LocalLight local_light(const DiskLight& light, const RayFrame& frame) {
-  const LightFrame axes = light_frame(light);
-  return {glm::vec3(frame.to_local(light.center)), glm::vec3(axes.u * (light.radius * frame.scale)),
-          glm::vec3(axes.v * (light.radius * frame.scale))};
+LocalLight local_light(const AreaLight& light, const RayFrame& frame) {
+  return {glm::vec3(frame.to_local(light.center)), glm::vec3(light.axes.u * (light.half.x * frame.scale)),
+          glm::vec3(light.axes.v * (light.half.y * frame.scale)), light.disk};
 }
 
 struct Receiver {
@@ -63,12 +64,28 @@ void aim_at_samples(const Receiver& from, const LocalLight& light, const Stratum
   const glm::vec3 base = light.center - from.origin, u = light.u, v = light.v, n = from.normal;
   const float* columns = table.columns.data() + first;
   const float* rows = table.rows.data() + first;
+  alignas(64) float a[kLanes], b[kLanes];
   for (int k = 0; k < kLanes; ++k) {
-    const detail::DiskPoint p = detail::disk_sample(key, static_cast<std::uint32_t>(first + k), columns[k],
-                                                    rows[k], per_column, per_row);
-    out.x[k] = base.x + u.x * p.x + v.x * p.y;
-    out.y[k] = base.y + u.y * p.x + v.y * p.y;
-    out.z[k] = base.z + u.z * p.x + v.z * p.y;
+    const detail::DiskPoint p = detail::stratum_sample(key, static_cast<std::uint32_t>(first + k), columns[k],
+                                                       rows[k], per_column, per_row);
+    a[k] = p.x;
+    b[k] = p.y;
+  }
+  if (light.disk)
+    for (int k = 0; k < kLanes; ++k) {
+      const detail::DiskPoint p = detail::concentric_disk(a[k], b[k]);
+      a[k] = p.x;
+      b[k] = p.y;
+    }
+  else
+    for (int k = 0; k < kLanes; ++k) {
+      a[k] = 2.0f * a[k] - 1.0f;
+      b[k] = 2.0f * b[k] - 1.0f;
+    }
+  for (int k = 0; k < kLanes; ++k) {
+    out.x[k] = base.x + u.x * a[k] + v.x * b[k];
+    out.y[k] = base.y + u.y * a[k] + v.y * b[k];
+    out.z[k] = base.z + u.z * a[k] + v.z * b[k];
     out.above[k] = n.x * out.x[k] + n.y * out.y[k] + n.z * out.z[k] > 0.0f ? -1 : 0;
   }
 }
@@ -178,7 +195,7 @@ ReferenceResult trace_reference(const Scene& scene, const RayScene& rays, const 
   if (scene.light.radius == 0.0) return trace_hard(scene, rays, surface, pixels);
   const auto start = std::chrono::steady_clock::now();
   const StratumTable table(options.samples);
-  const LocalLight light = local_light(scene.light, rays.frame());
+  const LocalLight light = local_light(area_light(scene), rays.frame());
   ReferenceResult out;
   out.samples = table.strata.count();
   out.visibility.assign(pixels.size(), 1.0f);

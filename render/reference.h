@@ -1,9 +1,11 @@
-// The reference: visibility by stratified rays to the disk (Embree), and the measure for everything else.
+// The reference: visibility by stratified rays to the light, disk or rectangle (Embree), and the measure for
+// everything else.
 //
-// In: surface points. Out: V per pixel, the fraction of the disk that no caster hides and that is above the
-// receiver's tangent plane. Samples are a jittered grid of strata mapped to the disk by the concentric map of
-// Shirley and Chiu (1997); the jitter is a hash of seed, pixel and stratum, so that the result does not
-// depend on threads, and adding an object leaves the samples of pixels that see the same face alone.
+// In: surface points. Out: V per pixel, the fraction of the light that no caster hides and that is above the
+// receiver's tangent plane. Samples are a jittered grid of strata mapped to the disk (the rectangle is a
+// square already) by the concentric map of Shirley and Chiu (1997); the jitter is a hash of seed, pixel and
+// stratum, so that the result does not depend on threads, and adding an object leaves the samples of pixels
+// that see the same face alone.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <thread>
 
@@ -15,10 +16,13 @@ struct NamedMethod {
   Method method;
   const char* name;
 };
-constexpr std::array kMethods{
-    NamedMethod{Method::kNone, "none"},       NamedMethod{Method::kHard, "hard"},
-    NamedMethod{Method::kDBuffer, "dbuffer"}, NamedMethod{Method::kSilhouette, "silhouette"},
-    NamedMethod{Method::kRays, "rays"},       NamedMethod{Method::kReference, "reference"}};
+constexpr std::array kMethods{NamedMethod{Method::kNone, "none"},
+                              NamedMethod{Method::kHard, "hard"},
+                              NamedMethod{Method::kDBuffer, "dbuffer"},
+                              NamedMethod{Method::kOcclusionTextures, "occlusion-textures"},
+                              NamedMethod{Method::kSilhouette, "silhouette"},
+                              NamedMethod{Method::kRays, "rays"},
+                              NamedMethod{Method::kReference, "reference"}};
 
 /// What a method finds out about the pixels.
 struct Seen {
@@ -30,6 +34,11 @@ std::vector<std::uint32_t> every_pixel(const SurfaceBuffer& surface) {
   std::vector<std::uint32_t> pixels(surface.size());
   std::iota(pixels.begin(), pixels.end(), 0u);
   return pixels;
+}
+
+bool takes_rectangles(Method method) {
+  return method == Method::kNone || method == Method::kHard || method == Method::kOcclusionTextures ||
+         method == Method::kReference;
 }
 
 int used_threads(int threads) {
@@ -67,6 +76,22 @@ nlohmann::json to_json(const SilhouetteCounts& c) {
           {"bytes", c.bytes}};
 }
 
+nlohmann::json to_json(const OcclusionOptions& o) {
+  nlohmann::json offset = "auto";
+  if (o.cop_offset)
+    offset = std::isinf(*o.cop_offset) ? nlohmann::json("orthographic") : nlohmann::json(*o.cop_offset);
+  return {{"slices", o.slices},
+          {"texture_size", o.texture_size},
+          {"filter", name_in(occlusion_filters(), o.filter)},
+          {"combine", name_in(occlusion_combines(), o.combine)},
+          {"kernel", name_in(occlusion_kernels(), o.kernel)},
+          {"thin_fix", name_in(thin_fixes(), o.thin_fix)},
+          {"slice_range", name_in(slice_ranges(), o.range)},
+          {"coverage", name_in(slice_coverages(), o.coverage)},
+          {"slice_faces", name_in(slice_faces(), o.faces)},
+          {"cop_offset", offset}};
+}
+
 }  // namespace
 
 Method method_of(const std::string& name) {
@@ -96,7 +121,11 @@ struct Renderer::State {
   RayScene rays;
   std::unique_ptr<gl::Context> context;
   std::unique_ptr<DBuffer> d_buffer;
+  std::unique_ptr<OcclusionTextures> occlusion;
   gl::Backend backend{};
+
+  /// The context that the options ask for; what was made with another goes away.
+  gl::Context& context_for(const RenderOptions& options);
 
   /// Visibility by the chosen method; fills stages and stats.
   Seen see(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
@@ -105,15 +134,25 @@ struct Renderer::State {
                                  StageClock& clock, nlohmann::json& stats);
   Seen by_silhouette(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
                      nlohmann::json& stats);
+  std::vector<float> by_occlusion_textures(const RenderOptions& options, const SurfaceBuffer& surface,
+                                           StageClock& clock, nlohmann::json& stats);
 };
+
+gl::Context& Renderer::State::context_for(const RenderOptions& options) {
+  if (!context || backend != options.backend) {
+    d_buffer.reset();
+    occlusion.reset();
+    context = gl::make_context(options.backend);
+    backend = options.backend;
+  }
+  return *context;
+}
 
 std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface,
                                                 StageClock& clock, nlohmann::json& stats) {
-  if (!d_buffer || backend != options.backend) {
-    d_buffer.reset();
-    context = gl::make_context(options.backend);
-    backend = options.backend;
-    d_buffer = std::make_unique<DBuffer>(*context, scene, rays);
+  gl::Context& gl = context_for(options);
+  if (!d_buffer) {
+    d_buffer = std::make_unique<DBuffer>(gl, scene, rays);
     clock.restart();  // one-time set-up, not a stage
   }
   d_buffer->set_surface(surface);
@@ -154,17 +193,35 @@ Seen Renderer::State::by_silhouette(const RenderOptions& options, const SurfaceB
   return {std::move(r.visibility), std::move(r.region)};
 }
 
+std::vector<float> Renderer::State::by_occlusion_textures(const RenderOptions& options,
+                                                          const SurfaceBuffer& surface, StageClock& clock,
+                                                          nlohmann::json& stats) {
+  gl::Context& gl = context_for(options);
+  if (!occlusion) {
+    occlusion = std::make_unique<OcclusionTextures>(gl, scene, options.threads);
+    clock.restart();  // one-time set-up, not a stage
+  }
+  const OcclusionOptions& o = options.occlusion;
+  OcclusionFrame frame = occlusion->render(surface, o);
+  for (const StageTime& s : frame.stages) clock.add(s);
+  stats["renderer"] = context->renderer();
+  stats["counts"] = frame.counts;
+  stats["options"] = to_json(o);
+  stats["options"]["backend"] = gl::name_of(options.backend);
+  return std::move(frame.visibility);
+}
+
 Seen Renderer::State::see(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
                           nlohmann::json& stats) {
   const auto pixels = every_pixel(surface);
   const bool point = scene.light.radius == 0.0;
   stats["renderer"] = "Embree 3, " + std::to_string(used_threads(options.threads)) + " threads";
   if (options.method == Method::kNone) {
+    const AreaLight light = area_light(scene);
     std::vector<float> open(surface.size(), 1.0f);
     for (std::size_t i = 0; i < surface.size(); ++i)
       if (surface.hit(i))
-        open[i] =
-            static_cast<float>(fraction_above_horizon(scene.light, surface.position[i], surface.normal[i]));
+        open[i] = static_cast<float>(fraction_above_horizon(light, surface.position[i], surface.normal[i]));
     clock.finish("visibility");
     return {std::move(open), {}};
   }
@@ -180,6 +237,8 @@ Seen Renderer::State::see(const RenderOptions& options, const SurfaceBuffer& sur
   if (options.method == Method::kDBuffer && !point) return {by_d_buffer(options, surface, clock, stats), {}};
   if ((options.method == Method::kSilhouette || options.method == Method::kRays) && !point)
     return by_silhouette(options, surface, clock, stats);
+  if (options.method == Method::kOcclusionTextures && !point)
+    return {by_occlusion_textures(options, surface, clock, stats), {}};
   // A point light has no penumbra: every method's answer is the hard shadow.
   ReferenceResult r = trace_hard(scene, rays, surface, pixels);
   clock.finish("visibility");
@@ -192,6 +251,8 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options)
 Renderer::~Renderer() = default;
 
 RenderResult Renderer::render_frame(const RenderOptions& options) {
+  if (!takes_rectangles(options.method))
+    require_disk(state_->scene, "method " + std::string(name_of(options.method)));
   RenderResult out;
   StageClock clock;
   out.stats = {{"method", name_of(options.method)},

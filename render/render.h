@@ -2,8 +2,9 @@
 // calls.
 //
 //   surface_buffer.h  what the camera sees          (the same points for every method)
-//   visibility        by the chosen method          (reference.h, d_buffer.h, silhouette.h, hard, none)
-//   shading.h         visibility → RGB              (the same code for every method)
+//   visibility        by the chosen method          (reference.h, d_buffer.h, occlusion_textures.h,
+//   silhouette.h, hard, none) shading.h         visibility → RGB              (the same code for every
+//   method)
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "render/d_buffer.h"
 #include "render/gl/context.h"
 #include "render/image.h"
+#include "render/occlusion_textures.h"
 #include "render/reference.h"
 #include "render/scene.h"
 #include "render/silhouette.h"
@@ -23,7 +25,7 @@
 
 namespace penumbra {
 
-enum class Method { kNone, kHard, kDBuffer, kSilhouette, kRays, kReference };
+enum class Method { kNone, kHard, kDBuffer, kOcclusionTextures, kSilhouette, kRays, kReference };
 Method method_of(const std::string& name);  ///< throws UsageError that lists the names
 const char* name_of(Method method);
 std::vector<std::string> method_names();
@@ -37,6 +39,7 @@ struct RenderOptions {
   ReferenceOptions reference;  ///< of the methods reference and rays
   DBufferOptions d_buffer;
   SilhouetteOptions silhouette;
+  OcclusionOptions occlusion;
   Progress progress;
 };
 

@@ -1,9 +1,11 @@
-// A scene: one disk light, a camera, objects in world space. Read from JSON (or a bare mesh file), with
+// A scene: one light, a camera, objects in world space. Read from JSON (or a bare mesh file), with
 // warnings for what was not understood.
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +22,17 @@ struct SceneObject {
   bool casts = true;
 };
 
+/// A rectangular light: its sides run along `tangent` and along normal × tangent.
+struct RectangleShape {
+  Vec3 tangent{
+      1.0, 0.0,
+      0.0};  ///< of any length, not parallel to the light's normal; only its part in the plane counts
+  glm::dvec2 half_extents{0.5};  ///< along tangent and across it, scene units, > 0
+};
+
 struct Scene {
-  DiskLight light;
+  DiskLight light;  ///< of a rectangle the disk around it: center and normal are its own
+  std::optional<RectangleShape> rectangle;  ///< the light is this, not the disk (area_light.h)
   Vec3 radiance{10.0};  ///< linear RGB, W/(m² sr) if a scene unit is a metre; at radius 0 the intensity, W/sr
   Camera camera;
   std::vector<SceneObject> objects;

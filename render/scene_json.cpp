@@ -1,4 +1,5 @@
 // parse_scene: from a JSON document to a scene, key by key.
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "mesh/error.h"
@@ -24,35 +25,57 @@ void require_version_1(const SceneNode& root) {
 SceneNode only_light(const SceneNode& root) {
   const SceneNode lights = root.required("lights");
   const std::vector<SceneNode> nodes = lights.elements();
-  if (nodes.empty()) lights.fail("is empty; add one disk light");
+  if (nodes.empty()) lights.fail("is empty; add one light");
   if (nodes.size() > 1)
     lights.fail("has " + std::to_string(nodes.size()) + " lights; only one is supported, remove the others");
   return nodes.front();
 }
 
+// Sine of the angle between two vectors of any length; 0 where one of them is 0.
+double sine_between(const Vec3& a, const Vec3& b) {
+  return glm::length(glm::cross(detail::unit(a), detail::unit(b)));
+}
+
+void read_disk(const SceneNode& node, Scene& scene) {
+  const SceneNode radius = node.required("radius");
+  scene.light.radius = radius.number();
+  if (scene.light.radius < 0.0) radius.fail("is " + to_text(scene.light.radius) + "; must be 0 or more");
+}
+
+void read_rectangle(const SceneNode& node, Scene& scene) {
+  const SceneNode tangent = node.required("tangent"), extents = node.required("half_extents");
+  const std::vector<double> half = extents.numbers(2);
+  scene.rectangle = RectangleShape{tangent.vec3(), {half[0], half[1]}};
+  if (sine_between(scene.rectangle->tangent, scene.light.normal) < 1e-9)
+    tangent.fail("is 0 or parallel to normal; give the direction of one side");
+  if (!(half[0] > 0.0 && half[1] > 0.0)) extents.fail("must be greater than 0");
+  scene.light.radius = std::hypot(half[0], half[1]);
+}
+
 void read_light(const SceneNode& node, Scene& scene) {
-  node.allow_only({"shape", "center", "normal", "radius", "radiance"});
   const SceneNode shape = node.required("shape");
-  if (const std::string name = shape.text(); name != "disk")
-    shape.fail("is \"" + name + "\"; only \"disk\" is supported");
+  const std::string name = shape.text();
+  if (name != "disk" && name != "rectangle")
+    shape.fail("is \"" + name + "\"; only \"disk\" and \"rectangle\" are supported");
+  const bool disk = name == "disk";
+  if (disk)
+    node.allow_only({"shape", "center", "normal", "radius", "radiance"});
+  else
+    node.allow_only({"shape", "center", "normal", "tangent", "half_extents", "radiance"});
   scene.light.center = node.required("center").vec3();
   const SceneNode normal = node.required("normal");
   scene.light.normal = normal.vec3();
   if (scene.light.normal == Vec3(0.0))
     normal.fail("has length 0; give the direction in which the light shines");
-  const SceneNode radius = node.required("radius");
-  scene.light.radius = radius.number();
-  if (scene.light.radius < 0.0) radius.fail("is " + to_text(scene.light.radius) + "; must be 0 or more");
+  if (disk)
+    read_disk(node, scene);
+  else
+    read_rectangle(node, scene);
   if (const auto radiance = node.find("radiance")) {
     scene.radiance = radiance->number_or_vec3();
     if (scene.radiance.x < 0.0 || scene.radiance.y < 0.0 || scene.radiance.z < 0.0)
       radiance->fail("must not be negative");
   }
-}
-
-// Sine of the angle between two vectors of any length; 0 where one of them is 0.
-double sine_between(const Vec3& a, const Vec3& b) {
-  return glm::length(glm::cross(detail::unit(a), detail::unit(b)));
 }
 
 Camera read_camera(const SceneNode& node) {

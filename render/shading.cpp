@@ -14,6 +14,7 @@
 
 #include "render/disk_area.h"
 #include "render/ray_scene_impl.h"
+#include "render/rectangle_area.h"
 
 namespace penumbra {
 namespace {
@@ -24,11 +25,12 @@ struct InLightFrame {
   Vec3 x, n;
 };
 
-InLightFrame to_light_frame(const DiskLight& light, const LightFrame& f, const Vec3& world,
-                            const Vec3& normal) {
-  const Vec3 d = world - light.center;
-  return {{glm::dot(d, f.u), glm::dot(d, f.v), glm::dot(d, f.w)},
-          {glm::dot(normal, f.u), glm::dot(normal, f.v), glm::dot(normal, f.w)}};
+InLightFrame to_light_frame(const AreaLight& light, const Vec3& world, const Vec3& normal) {
+  return {light.to_light(world), light.direction_to_light(normal)};
+}
+
+AreaLight area_of(const DiskLight& light) {
+  return {light_frame(light), light.center, glm::dvec2(light.radius), true};
 }
 
 /// The rim's share between two angles, from < to.
@@ -66,13 +68,6 @@ double whole_rim(const Vec3& x, const Vec3& n, double rho) {
   return -kPi * rho * (n.z * rho + q * (x.z * radial - n.z * away)) / s;
 }
 
-/// The share of the straight part from p to q (both relative to x).
-double chord_part(const Vec3& p, const Vec3& q, const Vec3& n) {
-  const Vec3 c = glm::cross(p, q);
-  const double size = glm::length(c);
-  return size > 0.0 ? -0.5 * glm::dot(n, c) / size * std::atan2(size, glm::dot(p, q)) : 0.0;
-}
-
 double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
   if (x.z <= 0.0) return 0.0;
   if (rho == 0.0) {
@@ -85,7 +80,7 @@ double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
   const double middle = std::atan2(horizon.normal.y, horizon.normal.x), reach = std::acos(-horizon.delta);
   const auto rim = [&](double angle) { return Vec3{rho * std::cos(angle), rho * std::sin(angle), 0.0} - x; };
   return std::max(0.0, rim_part(x, n, rho, middle - reach, middle + reach) +
-                           chord_part(rim(middle + reach), rim(middle - reach), n));
+                           detail::edge_irradiance(rim(middle + reach), rim(middle - reach), n));
 }
 
 double horizon_in_frame(const Vec3& x, const Vec3& n, double rho) {
@@ -94,16 +89,32 @@ double horizon_in_frame(const Vec3& x, const Vec3& n, double rho) {
   return half_plane_area(chord_of_plane(n, x, rho).delta);
 }
 
+double factor_of(const AreaLight& light, const InLightFrame& p) {
+  return light.disk ? factor_in_frame(p.x, p.n, light.half.x)
+                    : detail::rectangle_irradiance_factor(p.x, p.n, light.half);
+}
+
+double horizon_of(const AreaLight& light, const InLightFrame& p) {
+  return light.disk ? horizon_in_frame(p.x, p.n, light.half.x)
+                    : detail::rectangle_above_horizon(p.x, p.n, light.half);
+}
+
 }  // namespace
 
 double disk_irradiance_factor(const DiskLight& light, const Vec3& x, const Vec3& n) {
-  const InLightFrame p = to_light_frame(light, light_frame(light), x, n);
-  return factor_in_frame(p.x, p.n, light.radius);
+  return irradiance_factor(area_of(light), x, n);
 }
 
 double fraction_above_horizon(const DiskLight& light, const Vec3& x, const Vec3& n) {
-  const InLightFrame p = to_light_frame(light, light_frame(light), x, n);
-  return horizon_in_frame(p.x, p.n, light.radius);
+  return fraction_above_horizon(area_of(light), x, n);
+}
+
+double irradiance_factor(const AreaLight& light, const Vec3& x, const Vec3& n) {
+  return factor_of(light, to_light_frame(light, x, n));
+}
+
+double fraction_above_horizon(const AreaLight& light, const Vec3& x, const Vec3& n) {
+  return horizon_of(light, to_light_frame(light, x, n));
 }
 
 Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility, int threads,
@@ -118,16 +129,15 @@ Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const fl
   float* object = image.add("object", -1.0f).data();
   float* position[3] = {image.add("P.X").data(), image.add("P.Y").data(), image.add("P.Z").data()};
   float* normal[3] = {image.add("N.X").data(), image.add("N.Y").data(), image.add("N.Z").data()};
-  const LightFrame frame = light_frame(scene.light);
+  const AreaLight light = area_light(scene);
   tbb::task_arena arena(thread_count(threads));
   const auto shade_pixel = [&](std::size_t i) {
     if (!surface.hit(i)) return;
     const SceneObject& what = scene.objects[static_cast<std::size_t>(surface.object[i])];
-    const InLightFrame p = to_light_frame(scene.light, frame, surface.position[i], surface.normal[i]);
-    const double above = horizon_in_frame(p.x, p.n, scene.light.radius);
+    const InLightFrame p = to_light_frame(light, surface.position[i], surface.normal[i]);
+    const double above = horizon_of(light, p);
     const double share = above > 0.0 ? std::min(1.0, static_cast<double>(visibility[i]) / above) : 0.0;
-    const Vec3 color =
-        what.albedo / kPi * scene.radiance * (factor_in_frame(p.x, p.n, scene.light.radius) * share);
+    const Vec3 color = what.albedo / kPi * scene.radiance * (factor_of(light, p) * share);
     for (int k = 0; k < 3; ++k) {
       rgb[k][i] = static_cast<float>(color[k]);
       position[k][i] = static_cast<float>(surface.position[i][k]);

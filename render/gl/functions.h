@@ -42,6 +42,7 @@ using ProcLoader = void* (*)(const char* name);
   X(DrawArrays, PFNGLDRAWARRAYSPROC)                           \
   X(DrawBuffers, PFNGLDRAWBUFFERSPROC)                         \
   X(DrawElements, PFNGLDRAWELEMENTSPROC)                       \
+  X(DrawElementsInstanced, PFNGLDRAWELEMENTSINSTANCEDPROC)     \
   X(Enable, PFNGLENABLEPROC)                                   \
   X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC) \
   X(Finish, PFNGLFINISHPROC)                                   \
@@ -60,6 +61,7 @@ using ProcLoader = void* (*)(const char* name);
   X(GetString, PFNGLGETSTRINGPROC)                             \
   X(GetUniformLocation, PFNGLGETUNIFORMLOCATIONPROC)           \
   X(LinkProgram, PFNGLLINKPROGRAMPROC)                         \
+  X(LogicOp, PFNGLLOGICOPPROC)                                 \
   X(PixelStorei, PFNGLPIXELSTOREIPROC)                         \
   X(ReadBuffer, PFNGLREADBUFFERPROC)                           \
   X(ReadPixels, PFNGLREADPIXELSPROC)                           \

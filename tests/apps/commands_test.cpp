@@ -30,6 +30,52 @@ TEST_F(CommandTest, HelpAndVersionAreFine) {
     EXPECT_NE(fine({command, "--help"}).out.find("Examples:"), std::string::npos) << command;
 }
 
+TEST_F(CommandTest, RectanglesAreRefusedInOneLineWhereADiskIsNeeded) {
+  const std::string scene = PENUMBRA_DATA "/scenes/textures6.json";
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"classify", scene},
+                                                    {"volumes", scene, "--report", "-"},
+                                                    {"render", scene, "--size", "16x12", "--stats", "-"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments[0];
+    EXPECT_NE(outcome.err.find("needs a disk light"), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+TEST_F(CommandTest, OcclusionTexturesSayTheirOptions) {
+  const Json stats = Json::parse(fine({"render",         PENUMBRA_DATA "/scenes/textures6.json",
+                                       "--size",         "32x24",
+                                       "--method",       "occlusion-textures",
+                                       "--slices",       "8",
+                                       "--filter",       "nbuffer",
+                                       "--texture-size", "128",
+                                       "--combine",      "sum",
+                                       "--cop-offset",   "orthographic",
+                                       "--kernel",       "disk",
+                                       "--thin-fix",     "auto",
+                                       "--slice-range",  "casters",
+                                       "--slice-faces",  "all",
+                                       "--coverage",     "area",
+                                       "--stats",        "-"})
+                                     .out);
+  EXPECT_EQ(stats["options"]["cop_offset"], "orthographic");
+  EXPECT_EQ(stats["options"]["filter"], "nbuffer");
+  EXPECT_EQ(stats["counts"]["thin_casters"], 1);
+  for (const char* stage : {"frustum", "slices", "read_back", "prefilter", "visibility"})
+    EXPECT_TRUE(stats["stages"].contains(stage)) << stage;
+  const std::string scene = PENUMBRA_DATA "/scenes/textures6.json";
+  for (const std::vector<std::string>& bad : {std::vector<std::string>{"--slices", "5"},
+                                              {"--texture-size", "100"},
+                                              {"--filter", "fft"},
+                                              {"--cop-offset", "0"},
+                                              {"--cop-offset", "nan"},
+                                              {"--cop-offset", "near"}}) {
+    std::vector<std::string> arguments{"render", scene, "--stats", "-"};
+    arguments.insert(arguments.end(), bad.begin(), bad.end());
+    EXPECT_EQ(run(arguments).code, 2) << bad[0] << " " << bad[1];
+  }
+}
+
 TEST_F(CommandTest, InspectAsTextAndJson) {
   EXPECT_NE(fine({"inspect", path("t.off")}).out, "");
   const Json findings = Json::parse(fine({"inspect", "--json", path("t.off")}).out);

@@ -6,6 +6,7 @@
 
 #include "tests/bench/bench_support.h"
 #include "tests/bench/classify_price.h"
+#include "tests/bench/occlusion_bench.h"
 
 int main(int argc, char** argv) {
   using namespace penumbra::bench;
@@ -25,8 +26,10 @@ int main(int argc, char** argv) {
       time_silhouettes(name);
     known = true;
   }
+  if (wanted("occlusion")) bench_occlusion_textures(), known = true;
   if (known) return 0;
-  std::fprintf(stderr, "penumbra_bench: no part \"%s\"; there are price, dbuffer, silhouette and all\n",
+  std::fprintf(stderr,
+               "penumbra_bench: no part \"%s\"; there are price, dbuffer, silhouette, occlusion and all\n",
                part.c_str());
   return 2;
 }

@@ -125,6 +125,24 @@ TEST(Reference, DiskOverTheCenterIsTheLensOfTwoCircles) {
   EXPECT_NEAR(trace(scene, axis, 4096).visibility[0], 1.0 - std::pow(caster * grow / r, 2), 0.003);
 }
 
+// Past a line along y the share of a rectangle is linear, whatever its length across.
+TEST(Reference, RectangleIsSampledEvenly) {
+  const double z = 5.0, depth = 10.0;
+  Scene scene = testing::scene_in_light_frame(1.0, {half_plane(z)});
+  scene.rectangle = RectangleShape{{1, 0, 0}, {0.8, 0.3}};
+  const SurfaceBuffer surface = line_of_receivers(-1.0, 1.0, depth, 4'000);
+  const double along = rms_against(surface, trace(scene, surface, 1024).visibility, [&](const Vec3& p) {
+    return std::clamp(0.5 + 0.5 * delta_of_line(p, 0.0, z, 0.8), 0.0, 1.0);
+  });
+  scene.rectangle->tangent = {0, 1, 0};
+  const double across = rms_against(surface, trace(scene, surface, 1024).visibility, [&](const Vec3& p) {
+    return std::clamp(0.5 + 0.5 * delta_of_line(p, 0.0, z, 0.3), 0.0, 1.0);
+  });
+  std::printf("RMS difference %.4f, %.4f\n", along, across);
+  // 32 strata on the line: √(32/4)/1024, at worst.
+  EXPECT_LE(std::max(along, across), 0.0028);
+}
+
 TEST(Reference, PenumbraHasTheWidthOfTwoCones) {
   const double r = 0.5, depth = 10.0;
   for (const double z : {2.0, 5.0, 9.0}) {

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "mesh/error.h"
+#include "render/area_light.h"
 
 namespace penumbra {
 namespace {
@@ -81,6 +82,40 @@ TEST_F(SceneTest, EverythingIsRead) {
   EXPECT_TRUE(scene.objects[0].casts);
   EXPECT_EQ(scene.objects[0].mesh.triangles().size(), 4u);
   EXPECT_EQ(scene.document, good());
+}
+
+TEST_F(SceneTest, RectangleIsRead) {
+  Json document = good();
+  document["lights"][0] = Json::parse(
+      R"({"shape":"rectangle","center":[0,4,0],"normal":[0,-2,0],"tangent":[3,1,0],"half_extents":[0.3,0.4]})");
+  const LoadedScene loaded = parse(document, true);
+  ASSERT_TRUE(loaded.scene.rectangle);
+  EXPECT_EQ(loaded.scene.rectangle->tangent, Vec3(3, 1, 0));
+  EXPECT_EQ(loaded.scene.rectangle->half_extents, glm::dvec2(0.3, 0.4));
+  EXPECT_NEAR(loaded.scene.light.radius, 0.5, 1e-15);  // the disk around it
+  const AreaLight light = area_light(loaded.scene);
+  EXPECT_FALSE(light.disk);
+  EXPECT_LT(glm::distance(light.axes.u, Vec3(1, 0, 0)), 1e-15);  // its part in the light's plane
+  EXPECT_LT(glm::distance(light.axes.w, Vec3(0, -1, 0)), 1e-15);
+  EXPECT_LT(glm::distance(glm::cross(light.axes.u, light.axes.v), light.axes.w), 1e-15);
+}
+
+TEST_F(SceneTest, BadRectanglesAreRefusedByName) {
+  Json document = good();
+  Json& light = document["lights"][0];
+  light = Json::parse(
+      R"({"shape":"rectangle","center":[0,4,0],"normal":[0,-2,0],"tangent":[1,0,0],"half_extents":[0.3,0.4]})");
+  const auto message_with = [&](const char* key, const Json& value) {
+    Json changed = document;
+    changed["lights"][0][key] = value;
+    return message_of(changed, true);
+  };
+  EXPECT_NE(message_with("tangent", {0, 1, 0}).find("/lights/0/tangent"), std::string::npos);
+  EXPECT_NE(message_with("tangent", {0, 0, 0}).find("/lights/0/tangent"), std::string::npos);
+  for (const Json& bad : {Json{0.0, 1.0}, Json{1.0, -1.0}, Json{1.0}, Json(1.0)})
+    EXPECT_NE(message_with("half_extents", bad).find("/lights/0/half_extents"), std::string::npos) << bad;
+  EXPECT_NE(message_with("radius", 1.0).find("/lights/0/radius"), std::string::npos) << "a disk's key";
+  EXPECT_NE(message_with("shape", "sphere").find("/lights/0/shape"), std::string::npos);
 }
 
 TEST_F(SceneTest, PositionsOfAnIdentityKeepEveryBit) {

@@ -181,5 +181,44 @@ TEST(Shade, OfRadiusZeroIsAPointLight) {
   EXPECT_EQ(image.at("G")[1], 0.0f);
 }
 
+/// Integral of cos θ cos θ' / d² and area fraction above the horizon by the midpoint rule.
+struct RectangleSums {
+  double factor = 0.0, above = 0.0;
+};
+RectangleSums rectangle_by_quadrature(const AreaLight& light, const Vec3& x, const Vec3& n, int cells) {
+  RectangleSums out;
+  for (int j = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      const double a = light.half.x * (2.0 * (i + 0.5) / cells - 1.0),
+                   b = light.half.y * (2.0 * (j + 0.5) / cells - 1.0);
+      const Vec3 d = light.center + a * light.axes.u + b * light.axes.v - x;
+      const double d2 = glm::dot(d, d);
+      out.factor += std::max(0.0, glm::dot(n, d)) * std::max(0.0, -glm::dot(light.axes.w, d)) / (d2 * d2);
+      out.above += glm::dot(n, d) > 0.0;
+    }
+  out.factor *= 4.0 * light.half.x * light.half.y / (cells * cells);
+  out.above /= cells * cells;
+  return out;
+}
+
+TEST(RectangleIrradianceFactor, IsTheIntegralOverWhatTheHorizonLeaves) {
+  constexpr std::uint64_t kSeed = 12;
+  Random random(kSeed);
+  const AreaLight light{light_frame({{1, 2, 3}, {0.2, -1, 0.1}, 0.0}), {1, 2, 3}, {0.7, 0.2}, false};
+  int cut = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Vec3 x = light.center + random.spread(0.2, 5.0) * (light.axes.w + 0.8 * random.point()),
+               n = random.direction();
+    const RectangleSums expected = rectangle_by_quadrature(light, x, n, 400);
+    const bool behind = glm::dot(x - light.center, light.axes.w) <= 0.0;
+    ASSERT_NEAR(fraction_above_horizon(light, x, n), behind ? 0.0 : expected.above, 0.004)
+        << "seed " << kSeed << ", receiver " << k;
+    ASSERT_NEAR(irradiance_factor(light, x, n), expected.factor, 2e-4 * (1.0 + expected.factor))
+        << "seed " << kSeed << ", receiver " << k;
+    cut += expected.above > 0.0 && expected.above < 1.0;
+  }
+  EXPECT_GT(cut, 20);
+}
+
 }  // namespace
 }  // namespace penumbra

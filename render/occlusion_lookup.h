@@ -1,0 +1,40 @@
+// How much of the light the slices leave, receiver by receiver.
+//
+// "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4. Seen from a receiver at depth z the light covers on
+// the plane at depth b the light scaled by 1 - b/z, about the receiver scaled by b/z: one box of the slice's
+// texture, whose mean is what it hides. Slices that end behind the receiver do not count, and the one that
+// ends just before it fades in with the distance to its plane, from 0 to 1 over one slice.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/mip_pyramid.h"
+#include "render/n_buffer.h"
+#include "render/occlusion_frustum.h"
+#include "render/occlusion_masks.h"
+#include "render/summed_area.h"
+
+namespace penumbra::detail {
+
+/// The light's shape as boxes, in units of its half extents, with the area fraction of each.
+struct KernelPart {
+  double x0, y0, x1, y1, share;
+};
+/// One box, or for OcclusionKernel::kDisk of a disk light strips across it.
+std::vector<KernelPart> kernel_parts(const AreaLight& light, OcclusionKernel kernel);
+
+/// Visibility at points in the space of the frustum, as a fraction of the light. One class a filter.
+class OcclusionLookup {
+ public:
+  virtual ~OcclusionLookup() = default;
+  /// `above`: the fraction above the receiver's horizon. Precondition: p.z > 0.
+  virtual double visibility(const Vec3& p, double above) const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+/// Prefilters all slices, several at a time.
+std::unique_ptr<OcclusionLookup> make_occlusion_lookup(const std::vector<SliceTexels>& slices,
+                                                       const SliceFrustum& frustum, const SliceSpace& space,
+                                                       const OcclusionOptions& options);
+
+}  // namespace penumbra::detail

@@ -1,0 +1,219 @@
+#include "render/occlusion_textures.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <string>
+
+#include "mesh/error.h"
+#include "render/occlusion_lookup.h"
+#include "render/ray_scene.h"
+#include "render/shading.h"
+
+namespace penumbra {
+namespace {
+
+void require_valid(const OcclusionOptions& o) {
+  if (o.slices < 4 || o.slices > 16 || o.slices % 4 != 0)
+    throw UsageError("slices must be 4, 8, 12 or 16, not " + std::to_string(o.slices));
+  if (o.texture_size != 128 && o.texture_size != 256 && o.texture_size != 512 && o.texture_size != 1024)
+    throw UsageError("texture size must be 128, 256, 512 or 1024 texels, not " +
+                     std::to_string(o.texture_size));
+  if (o.cop_offset && !(*o.cop_offset > 0.0))
+    throw UsageError("the center of projection must lie behind the light: an offset greater than 0");
+}
+
+}  // namespace
+
+struct OcclusionTextures::Impl {
+  Impl(gl::Context& context_, const Scene& scene_, int threads);
+  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options);
+
+  /// What one frame knows before anything is drawn.
+  struct Plan {
+    std::vector<detail::CasterExtent> extents;  ///< one per caster
+    detail::SliceFrustum frustum;
+    std::vector<detail::CasterDrawing> drawings;  ///< one per caster
+    bool nothing_casts = false;
+  };
+  Plan plan(const detail::SliceSpace& space, const OcclusionOptions& options) const;
+  void look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
+               const detail::OcclusionLookup* lookup, std::vector<float>& visibility) const;
+
+  gl::Context& context;
+  const Scene& scene;
+  Vec3 origin;  ///< uploaded points: (world - origin) · scale
+  double scale;
+  std::vector<const TriangleMesh*> casters;
+  std::vector<double> thickness;  ///< one per caster
+  std::unique_ptr<detail::OcclusionMasks> masks;
+  mutable tbb::task_arena arena;
+};
+
+OcclusionTextures::Impl::Impl(gl::Context& context_, const Scene& scene_, int threads)
+    : context(context_),
+      scene(scene_),
+      scale(ray_frame(scene_).scale),
+      arena(threads > 0 ? threads : tbb::task_arena::automatic) {
+  const Bounds bounds = scene.caster_bounds();
+  origin = bounds.empty() ? scene.light.center : bounds.center();
+  std::vector<glm::vec3> points;
+  std::vector<std::uint32_t> indices;
+  std::vector<detail::MaskRange> ranges;
+  for (const SceneObject& object : scene.objects) {
+    if (!object.casts || object.mesh.empty()) continue;
+    const auto first_index = static_cast<std::uint32_t>(indices.size());
+    const auto first_point = static_cast<std::uint32_t>(points.size());
+    for (const Vec3& p : object.mesh.positions()) points.push_back(glm::vec3((p - origin) * scale));
+    for (const IndexedTriangle& t : object.mesh.triangles())
+      for (std::uint32_t v : t) indices.push_back(first_point + v);
+    ranges.push_back({first_index, static_cast<std::uint32_t>(indices.size()) - first_index});
+    casters.push_back(&object.mesh);
+    thickness.push_back(detail::mean_thickness(object.mesh));
+  }
+  masks = std::make_unique<detail::OcclusionMasks>(context.functions(), points, indices, std::move(ranges));
+  gl::require_no_error(context.functions(), "uploading casters");
+}
+
+OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceSpace& space,
+                                                            const OcclusionOptions& options) const {
+  Plan plan;
+  detail::DepthRange depth;
+  for (const TriangleMesh* mesh : casters) {
+    plan.extents.push_back(detail::caster_extent(*mesh, space));
+    depth.add(plan.extents.back().depth);
+  }
+  plan.nothing_casts = depth.empty();
+  if (plan.nothing_casts) return plan;
+  if (options.range == SliceRange::kScene)
+    for (const SceneObject& object : scene.objects)
+      for (const Vec3& p : object.mesh.positions())
+        depth.add(std::max(space.to_light(p).z, detail::kNearSlice));
+  plan.frustum = detail::fit_frustum(plan.extents, depth, space, options);
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    const bool leaks = options.thin_fix == ThinFix::kAuto &&
+                       detail::may_leak(thickness[i], plan.extents[i], space, plan.frustum);
+    const bool solid = casters[i]->is_closed() && !plan.extents[i].cut;
+    plan.drawings.push_back({.fills_next = leaks || options.thin_fix == ThinFix::kOn,
+                             .front_only = solid && options.faces == SliceFaces::kFront});
+  }
+  return plan;
+}
+
+/// `lookup`: none where nothing casts.
+void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
+                                      const detail::OcclusionLookup* lookup,
+                                      std::vector<float>& visibility) const {
+  visibility.assign(surface.size(), 1.0f);
+  const auto one = [&](std::size_t i) {
+    if (!surface.hit(i)) return;
+    const Vec3 p = space.to_light(surface.position[i]);
+    const double above = fraction_above_horizon(space.light, surface.position[i], surface.normal[i]);
+    visibility[i] =
+        static_cast<float>(lookup && p.z > 0.0 && above > 0.0 ? lookup->visibility(p, above) : above);
+  };
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 2048), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) one(i);
+    });
+  });
+}
+
+OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
+                                               const OcclusionOptions& options) {
+  OcclusionFrame frame;
+  StageClock clock;
+  const detail::SliceSpace space(area_light(scene), scale);
+  const Plan plan = this->plan(space, options);
+  clock.finish("frustum");
+  frame.counts = {{"casters", casters.size()}, {"slices_in_use", 0}, {"texture_bytes", 0}};
+  std::unique_ptr<detail::OcclusionLookup> lookup;
+  if (!plan.nothing_casts) {
+    const LightFrame& f = space.light.axes;
+    const glm::mat3 axes(glm::transpose(glm::dmat3(f.u, f.v, f.w)));
+    const auto slices =
+        masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
+    arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
+    clock.finish("prefilter");
+    const auto used = std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); });
+    const auto thin =
+        std::count_if(plan.drawings.begin(), plan.drawings.end(), [](const auto& d) { return d.fills_next; });
+    frame.counts["slices_in_use"] = used;
+    frame.counts["thin_casters"] = thin;
+    frame.counts["slice_thickness"] = plan.frustum.thickness / space.scale;
+    frame.counts["cop_offset"] = plan.frustum.narrowing > 0.0
+                                     ? nlohmann::json(1.0 / (plan.frustum.narrowing * space.scale))
+                                     : nlohmann::json("orthographic");
+    frame.counts["texture_bytes"] = lookup->bytes();
+  }
+  look_up(space, surface, lookup.get(), frame.visibility);
+  clock.finish("visibility");
+  gl::require_no_error(context.functions(), "rendering occlusion textures");
+  frame.stages = clock.stages();
+  return frame;
+}
+
+std::span<const NamedValue<OcclusionFilter>> occlusion_filters() {
+  static constexpr NamedValue<OcclusionFilter> kNames[] = {{OcclusionFilter::kMipmap, "mipmap"},
+                                                           {OcclusionFilter::kNBuffer, "nbuffer"},
+                                                           {OcclusionFilter::kSummedArea, "sat"}};
+  return kNames;
+}
+
+std::span<const NamedValue<OcclusionCombine>> occlusion_combines() {
+  static constexpr NamedValue<OcclusionCombine> kNames[] = {{OcclusionCombine::kProduct, "product"},
+                                                            {OcclusionCombine::kSum, "sum"},
+                                                            {OcclusionCombine::kMaximum, "maximum"}};
+  return kNames;
+}
+
+std::span<const NamedValue<OcclusionKernel>> occlusion_kernels() {
+  static constexpr NamedValue<OcclusionKernel> kNames[] = {{OcclusionKernel::kBox, "box"},
+                                                           {OcclusionKernel::kDisk, "disk"}};
+  return kNames;
+}
+
+std::span<const NamedValue<ThinFix>> thin_fixes() {
+  static constexpr NamedValue<ThinFix> kNames[] = {
+      {ThinFix::kOff, "off"}, {ThinFix::kOn, "on"}, {ThinFix::kAuto, "auto"}};
+  return kNames;
+}
+
+std::span<const NamedValue<SliceRange>> slice_ranges() {
+  static constexpr NamedValue<SliceRange> kNames[] = {{SliceRange::kScene, "scene"},
+                                                      {SliceRange::kCasters, "casters"}};
+  return kNames;
+}
+
+std::span<const NamedValue<SliceCoverage>> slice_coverages() {
+  static constexpr NamedValue<SliceCoverage> kNames[] = {{SliceCoverage::kBinary, "binary"},
+                                                         {SliceCoverage::kArea, "area"}};
+  return kNames;
+}
+
+std::span<const NamedValue<SliceFaces>> slice_faces() {
+  static constexpr NamedValue<SliceFaces> kNames[] = {{SliceFaces::kAll, "all"},
+                                                      {SliceFaces::kFront, "front"}};
+  return kNames;
+}
+
+OcclusionTextures::OcclusionTextures(gl::Context& context, const Scene& scene, int threads) {
+  context.make_current();
+  impl_ = std::make_unique<Impl>(context, scene, threads);
+}
+
+OcclusionTextures::~OcclusionTextures() {
+  if (impl_) impl_->context.make_current();
+}
+
+OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options) {
+  require_valid(options);
+  impl_->context.make_current();
+  return impl_->render(surface, options);
+}
+
+}  // namespace penumbra
