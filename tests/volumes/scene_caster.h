@@ -47,11 +47,15 @@ inline SceneCaster load_scene(const std::string& name) {
   return result;
 }
 
+/// Those under a disk.
 inline std::vector<std::string> scene_names() {
   std::vector<std::string> names;
   for (const auto& entry :
        std::filesystem::directory_iterator(std::filesystem::path(PENUMBRA_DATA) / "scenes")) {
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+    if (entry.path().extension() != ".json") continue;
+    std::ifstream in(entry.path());
+    if (nlohmann::json::parse(in)["lights"][0]["shape"] == "disk")
+      names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
