@@ -1,4 +1,4 @@
-// What writes files: pictures, states, volumes, sequences. Each returns a line to show.
+// What writes a picture or a state at a key press. Each returns a line to show.
 #pragma once
 
 #include <filesystem>

@@ -14,6 +14,7 @@ constexpr std::array kKeys{
     CommandKey{Command::kViewRight, GLFW_KEY_3, false, false, "3", "look from the right"},
     CommandKey{Command::kViewTop, GLFW_KEY_7, false, false, "7", "look from above"},
     CommandKey{Command::kFrameAll, GLFW_KEY_HOME, false, false, "Home", "show all casters"},
+    CommandKey{Command::kFrameLight, GLFW_KEY_HOME, true, false, "Shift+Home", "show casters and light"},
     CommandKey{Command::kReset, GLFW_KEY_R, false, false, "R", "camera and light as loaded"},
     CommandKey{Command::kNextMethod, GLFW_KEY_M, false, false, "M", "next method"},
     CommandKey{Command::kPreviousMethod, GLFW_KEY_M, true, false, "Shift+M", "previous method"},

@@ -10,6 +10,7 @@ enum class Command {
   kViewRight,
   kViewTop,
   kFrameAll,
+  kFrameLight,
   kReset,
   kNextMethod,
   kPreviousMethod,

@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace penumbra::viewer {
@@ -35,7 +37,10 @@ class Pen {
   }
   void letter(const Vec3& p, const char* text, ImU32 color) const {
     const auto at = projection_.project(p);
-    if (at) list_.AddText({place(*at).x + 8.0f, place(*at).y - 7.0f}, color, text);
+    if (!at) return;
+    const ImVec2 corner{place(*at).x + 8.0f, place(*at).y - 7.0f};
+    list_.AddText({corner.x + 1.0f, corner.y + 1.0f}, kOutline, text);
+    list_.AddText(corner, color, text);
   }
 
  private:
@@ -43,9 +48,37 @@ class Pen {
   const Projection& projection_;
 };
 
+// Where the light is outside the picture: an arrow at the border that points to it.
+void draw_pointer_to_light(ImDrawList& list, const Vec3& center, const Projection& projection, ImVec2 size) {
+  const Vec3 offset = center - projection.eye();
+  ImVec2 way{static_cast<float>(glm::dot(offset, projection.right())),
+             static_cast<float>(-glm::dot(offset, projection.up()))};
+  if (const auto at = projection.project(center)) {
+    if (at->x >= 0.0 && at->y >= 0.0 && at->x < size.x && at->y < size.y) return;
+    way = {static_cast<float>(at->x) - 0.5f * size.x, static_cast<float>(at->y) - 0.5f * size.y};
+  }
+  const float length = std::max(std::hypot(way.x, way.y), 1e-6f);
+  const ImVec2 unit{way.x / length, way.y / length};
+  const float room = std::min((0.5f * size.x - 20.0f) / std::max(std::abs(unit.x), 1e-6f),
+                              (0.5f * size.y - 20.0f) / std::max(std::abs(unit.y), 1e-6f));
+  const ImVec2 tip{0.5f * size.x + room * unit.x, 0.5f * size.y + room * unit.y};
+  const ImVec2 tail{tip.x - 16.0f * unit.x, tip.y - 16.0f * unit.y};
+  const ImVec2 side{-7.0f * unit.y, 7.0f * unit.x};
+  list.AddTriangleFilled(tip, {tail.x + side.x, tail.y + side.y}, {tail.x - side.x, tail.y - side.y},
+                         kYellow);
+  constexpr const char* kText = "light (Shift+Home)";
+  const ImVec2 room_for_text = ImGui::CalcTextSize(kText);
+  const float x = std::min(tail.x + 12.0f, size.x - room_for_text.x - 6.0f);
+  list.AddRectFilled({x - 4.0f, tail.y - 8.0f}, {x + room_for_text.x + 4.0f, tail.y + room_for_text.y - 4.0f},
+                     kOutline, 3.0f);
+  list.AddText({x, tail.y - 6.0f}, kYellow, kText);
+}
+
 }  // namespace
 
 void draw_light(ImDrawList& list, const DiskLight& light, const Projection& projection, Handle marked) {
+  const ImVec2 low = list.GetClipRectMin(), high = list.GetClipRectMax();
+  draw_pointer_to_light(list, light.center, projection, {high.x - low.x, high.y - low.y});
   const HandleShape shape = handle_shape(light, projection);
   const Pen pen(list, projection);
   const auto color = [&](Handle handle, ImU32 usual) { return handle == marked ? kMarked : usual; };

@@ -215,7 +215,7 @@ std::optional<Command> buttons() {
   std::optional<Command> pressed;
   for (std::size_t i = 0; i < std::size(kButtons); ++i) {
     if (i % 3) ImGui::SameLine();
-    if (ImGui::Button(kLabels[i], {98.0f, 0.0f})) pressed = kButtons[i];
+    if (ImGui::Button(kLabels[i], {95.0f, 0.0f})) pressed = kButtons[i];
     help_on_hover(std::string(key_of(kButtons[i]).help) + " (" + key_of(kButtons[i]).shown + ")");
   }
   return pressed;
@@ -230,7 +230,7 @@ std::optional<Command> Panel::draw(State& state, const PanelInput& input) {
   ImGui::Begin("panel", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
-  ImGui::PushItemWidth(200.0f);
+  ImGui::PushItemWidth(180.0f);
   std::size_t faces = 0;
   for (const SceneObject& object : state.model->objects) faces += object.mesh.triangles().size();
   ImGui::Text("%s: %zu faces", state.path.filename().c_str(), faces);

@@ -9,10 +9,13 @@
 #include "apps/outputs.h"
 #include "apps/viewer/actions.h"
 #include "apps/viewer/commands.h"
+#include "apps/viewer/exports.h"
 #include "apps/viewer/navigation.h"
+#include "apps/viewer/overlay_pass.h"
 #include "apps/viewer/panel.h"
 #include "apps/viewer/picture_view.h"
 #include "apps/viewer/pointer.h"
+#include "apps/viewer/probe_view.h"
 #include "apps/viewer/status.h"
 #include "apps/viewer/window.h"
 #include "apps/viewer/wishes.h"
@@ -20,6 +23,8 @@
 
 namespace penumbra::viewer {
 namespace {
+
+constexpr int kSequence = 24;  // pictures along the light's path
 
 class Viewer {
  public:
@@ -38,6 +43,7 @@ class Viewer {
   void take_screenshot_when_due();
   bool settled() const { return wishes_.settled(view_.frame()); }
   void draw_help();
+  void draw_overlays();
 
   ViewerOptions options_;
   State state_;
@@ -46,6 +52,10 @@ class Viewer {
   RenderWorker worker_;
   Wishes wishes_;
   PictureView view_;
+  OverlayMaker overlay_maker_;
+  OverlayPass overlay_pass_;
+  ProbeView probe_;
+  Exports exports_;
   Pointer pointer_;
   Panel panel_;
   Costs costs_;
@@ -65,6 +75,10 @@ Viewer::Viewer(ViewerOptions options, State state, std::string message)
       worker_(&Window::wake),
       wishes_(worker_),
       view_(window_.functions()),
+      overlay_maker_(&Window::wake),
+      overlay_pass_(window_.functions()),
+      probe_(window_.functions(), &Window::wake),
+      exports_(&Window::wake),
       status_(options_.status),
       show_panel_(!options_.plain) {}
 
@@ -117,6 +131,7 @@ void Viewer::draw() {
   keys();
   pointer_.update(state_, view_.frame());
   view_.draw_picture(state_);
+  draw_overlays();
   view_.draw_marks(state_, pointer_, settled());
   if (show_panel_) {
     const PanelInput input{.frame = view_.frame(),
@@ -127,7 +142,9 @@ void Viewer::draw() {
                            .height = state_.left.height};
     if (const auto command = panel_.draw(state_, input)) obey(*command);
   }
+  probe_.draw(state_, view_.frame(), pointer_);
   if (show_help_) draw_help();
+  if (const std::string news = exports_.news(); !news.empty()) message_ = news;
   wishes_.update(state_, pointer_.dragging() || ImGui::IsAnyItemActive());
   status_.update({.state = state_,
                   .settled = settled(),
@@ -137,11 +154,11 @@ void Viewer::draw() {
 }
 
 void Viewer::keys() {
-  const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput) return;
-  for (const CommandKey& each : command_keys())
-    if (each.shift == io.KeyShift && each.control == io.KeyCtrl && ImGui::IsKeyPressed(each.key, false))
-      obey(each.command);
+  const std::vector<Window::Key> pressed = window_.take_keys();
+  if (ImGui::GetIO().WantTextInput) return;
+  for (const Window::Key& key : pressed)
+    for (const CommandKey& each : command_keys())
+      if (each.key == key.key && each.shift == key.shift && each.control == key.control) obey(each.command);
 }
 
 void Viewer::obey_view(Command command) {
@@ -158,8 +175,12 @@ void Viewer::obey_view(Command command) {
       state_.camera = seen_from(state_.camera, up, StandardView::kTop);
       break;
     case Command::kFrameAll:
-      state_.camera = framed(state_.camera, state_.model->caster_bounds(), width, height);
+    case Command::kFrameLight: {
+      Bounds bounds = state_.model->caster_bounds();
+      if (command == Command::kFrameLight) bounds.add(state_.light.center);
+      state_.camera = framed(state_.camera, bounds, width, height);
       break;
+    }
     case Command::kReset:
       state_.camera = state_.model->camera;
       state_.light = state_.model->light;
@@ -232,8 +253,6 @@ void Viewer::obey(Command command) {
     case Command::kSavePicture:
     case Command::kSaveState:
     case Command::kCopyCommand:
-    case Command::kExportVolumes:
-    case Command::kExportSequence:
       message_ =
           perform(command,
                   {.state = state_, .frame = view_.frame(), .settled = settled(), .folder = options_.output});
@@ -264,16 +283,31 @@ void Viewer::open_neighbour(int step) {
 }
 
 void Viewer::take_screenshot_when_due() {
-  if (options_.screenshot.empty() || frames_ < options_.frames || !settled()) return;
+  if (options_.screenshot.empty() || frames_ < options_.frames || !settled() || overlay_maker_.busy() ||
+      probe_.busy())
+    return;
   int width = 0, height = 0;
   const std::vector<unsigned char> pixels = window_.read_pixels(width, height);
   write_png(options_.screenshot, width, height, pixels);
   window_.close();
 }
 
+// Between the picture and the light's handles, inside ImGui's own drawing.
+void Viewer::draw_overlays() {
+  overlay_pass_.set(overlay_maker_.update(state_));
+  ImDrawList& list = *ImGui::GetBackgroundDrawList();
+  const auto draw = [](const ImDrawList*, const ImDrawCmd* command) {
+    const auto& viewer = *static_cast<const Viewer*>(command->UserCallbackData);
+    viewer.overlay_pass_.draw(viewer.state_, viewer.state_.left.width, viewer.state_.left.height);
+  };
+  list.AddCallback(draw, this);
+  list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+}
+
 void Viewer::draw_help() {
   ImGui::SetNextWindowPos({20, 20});
-  ImGui::Begin("Keys", &show_help_, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::SetNextWindowSize({680, 0});
+  ImGui::Begin("Keys", &show_help_, ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted(
       "Left drag turns, middle or Shift drag pans, the wheel zooms to the pointer,\n"
       "a double click sets the centre. Drag the light's arrows, its centre, the tip\n"
@@ -281,7 +315,7 @@ void Viewer::draw_help() {
   ImGui::Separator();
   ImGui::Columns(2, "keys", false);
   for (const CommandKey& each : command_keys())
-    ImGui::Text("%-8s %s", each.shown, each.help), ImGui::NextColumn();
+    ImGui::Text("%-11s %s", each.shown, each.help), ImGui::NextColumn();
   ImGui::Columns(1);
   ImGui::End();
 }

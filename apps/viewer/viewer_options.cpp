@@ -27,7 +27,18 @@ H in the window lists the keys. Exit codes: 0 fine, 1 failed (no display, say), 
 
 struct Words {
   std::string size, method = name_of(RenderOptions{}.method), against = "reference", view = "single";
+  std::vector<std::string> overlays;
 };
+
+bool& overlay_of(const std::string& word, Overlays& overlays) {
+  if (word == "faces") return overlays.faces;
+  if (word == "silhouettes") return overlays.silhouettes;
+  if (word == "band") return overlays.band;
+  if (word == "sheets") return overlays.sheets;
+  if (word == "penumbra") return overlays.penumbra;
+  if (word == "umbra") return overlays.umbra;
+  throw UsageError("unknown overlay '" + word + "': use faces, silhouettes, band, sheets, penumbra or umbra");
+}
 
 Arrangement arrangement_of(const std::string& word) {
   if (word == "single") return Arrangement::kSingle;
@@ -47,6 +58,10 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
       ->capture_default_str();
   apps::add_exposure_option(app, options.state.exposure, "Stops by which the picture is brighter");
   app.add_flag("--plain", options.plain, "Nothing but the picture: no panel, no handles");
+  app.add_option("--overlay", words.overlays,
+                 "faces, silhouettes, band, sheets, penumbra or umbra; may be repeated")
+      ->take_all()
+      ->expected(1);
   app.add_flag("--probe", options.state.probe, "Start with the probe");
   app.add_option("--screenshot", options.screenshot,
                  "Write the window as PNG once the picture is final, and leave")
@@ -71,6 +86,7 @@ void check(ViewerOptions& options, const Words& words, bool method_given, bool v
   options.state.left.method = method_of(words.method);
   options.state.right.method = method_of(words.against);
   options.state.arrangement = arrangement_of(words.view);
+  for (const std::string& word : words.overlays) overlay_of(word, options.state.overlays) = true;
   if (method_given) options.method = options.state.left.method;
   if (view_given) options.view = options.state.arrangement;
   if (!options.screenshot.empty()) {

@@ -62,11 +62,16 @@ Window::Window(int width, int height, const std::string& title) {
     auto& dropped = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_;
     dropped.insert(dropped.end(), paths, paths + count);
   });
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+    if (action == GLFW_PRESS)
+      static_cast<Window*>(glfwGetWindowUserPointer(window))
+          ->keys_.push_back({key, (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0});
+  });
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;
   set_style();
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks above, too
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
@@ -98,6 +103,10 @@ void Window::set_size(int width, int height) {
 
 std::vector<std::string> Window::take_dropped() {
   return std::exchange(dropped_, {});
+}
+
+std::vector<Window::Key> Window::take_keys() {
+  return std::exchange(keys_, {});
 }
 
 void Window::wait(double seconds) {

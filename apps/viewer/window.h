@@ -28,6 +28,13 @@ class Window {
   /// Files dropped since the last call.
   std::vector<std::string> take_dropped();
 
+  /// Keys pressed since the last call, however short: ImGui only knows which are down when a frame begins.
+  struct Key {
+    int key;  ///< GLFW's number
+    bool shift, control;
+  };
+  std::vector<Key> take_keys();
+
   /// Waits for an event at most so long; a negative time has no end. `wake` ends it from any thread.
   void wait(double seconds);
   static void wake();
@@ -42,6 +49,7 @@ class Window {
   GLFWwindow* window_ = nullptr;
   gl::Functions gl_;
   std::vector<std::string> dropped_;
+  std::vector<Key> keys_;
 };
 
 }  // namespace penumbra::viewer
