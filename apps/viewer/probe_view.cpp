@@ -74,8 +74,7 @@ void ProbeView::draw(const State& state, const Frame* frame, const Pointer& poin
     place_ = Place{*pixel, s.object[*pixel], s.face[*pixel], s.position[*pixel], s.normal[*pixel]};
     ask(state, *frame);
   }
-  ImGui::SetNextWindowPos({12.0f, static_cast<float>(state.left.height) - 12.0f}, ImGuiCond_FirstUseEver,
-                          {0.0f, 1.0f});
+  ImGui::SetNextWindowPos({12.0f, 44.0f}, ImGuiCond_FirstUseEver);
   ImGui::Begin("Probe", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);

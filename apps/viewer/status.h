@@ -14,6 +14,7 @@ namespace penumbra::viewer {
 struct StatusInput {
   const State& state;
   bool settled;
+  bool holding;        ///< a drag or a slider is under way
   const Frame* frame;  ///< may be null
   const std::map<std::string, PicturePoint>& places;
   const std::string& message;

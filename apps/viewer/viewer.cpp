@@ -145,9 +145,11 @@ void Viewer::draw() {
   probe_.draw(state_, view_.frame(), pointer_);
   if (show_help_) draw_help();
   if (const std::string news = exports_.news(); !news.empty()) message_ = news;
-  wishes_.update(state_, pointer_.dragging() || ImGui::IsAnyItemActive());
+  const bool holding = pointer_.dragging() || ImGui::IsAnyItemActive();
+  wishes_.update(state_, holding);
   status_.update({.state = state_,
                   .settled = settled(),
+                  .holding = holding,
                   .frame = view_.frame(),
                   .places = panel_.places(),
                   .message = message_});
