@@ -30,6 +30,7 @@ nlohmann::json report(const StatusInput& input) {
   const State& state = input.state;
   nlohmann::json json = {
       {"settled", input.settled},
+      {"holding", input.holding},
       {"message", input.message},
       {"file", state.path.string()},
       {"method", name_of(state.left.method)},

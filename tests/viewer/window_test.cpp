@@ -82,12 +82,13 @@ TEST_F(WindowTest, DragTurnsAndSavedPictureIsThatOfTheSavedState) {
 }
 
 TEST_F(WindowTest, SliderAndHandlesChangeTheLight) {
-  open({kCube, "--size", "480x360"});
+  open({kCube, "--size", "480x700"});
   const Json before = status()["light"];
   key("shift+Home");
   const auto own = [&](const Json& s) { return s["handles"].contains("x"); };
   Json now = settled("the light in view", [&](const Json& s) {
-    return own(s) && s["handles"]["y"][1].get<double>() > 0.0 && s["handles"]["x"][0].get<double>() < 480.0;
+    return own(s) && s["handles"]["center"][1].get<double>() > 0.0 &&
+           s["handles"]["x"][0].get<double>() < 480.0;
   });
   drag(now["handles"]["x"], 15, 0, "another place",
        [&](const Json& s) { return s["light"]["center"] != before["center"]; });
@@ -123,7 +124,7 @@ TEST_F(WindowTest, KeysChangeMethodAndArrangementAndTheDividerMoves) {
   settled("the method again", [&](const Json& s) { return s["method"] == before["method"]; });
   key("s");
   settled("two sides", [](const Json& s) { return s["frame"]["rays"].size() == 2; });
-  drag({160, 20}, 60, 0, "another divider", [](const Json& s) { return s["divider"].get<double>() > 0.6; });
+  drag({160, 185}, 60, 0, "another divider", [](const Json& s) { return s["divider"].get<double>() > 0.6; });
   EXPECT_EQ(status()["camera"], before["camera"]);
   key("d");
   settled("the difference", [](const Json& s) { return s["arrangement"] == 2; });
