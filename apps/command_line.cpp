@@ -2,11 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <new>
 
 #include "apps/commands.h"
+#include "apps/failures.h"
 #include "apps/messages.h"
-#include "mesh/error.h"
 
 namespace penumbra::apps {
 namespace {
@@ -24,11 +23,6 @@ Examples:
 
 Exit codes: 0 fine, 1 failed (an output cannot be written, say), 2 bad usage, 3 bad mesh or scene.
 Every subcommand explains itself: penumbra render --help)";
-
-int fail(ExitCode code, const std::string& message) {
-  complain(message);
-  return code;
-}
 
 // Which help to read: that of the subcommand on the command line, where there is one.
 std::string help_hint(const CLI::App& app) {
@@ -67,22 +61,7 @@ int run_command_line(int argc, char** argv) {
   add_inspect_command(app);
   add_classify_command(app);
   add_compare_command(app);
-  try {
-    return parse_and_run(app, argc, argv);
-  } catch (const UsageError& e) {
-    return fail(kBadUsage, e.what());
-  } catch (const MeshError& e) {
-    return fail(kBadInput, e.what());
-  } catch (const SceneError& e) {
-    return fail(kBadInput, e.what());
-  } catch (const Error& e) {
-    return fail(kFailed, e.what());
-  } catch (const std::bad_alloc&) {
-    return fail(kFailed, "not enough memory; try a smaller --size or mesh");
-  } catch (const std::exception& e) {
-    return fail(kFailed,
-                std::string("unexpected: ") + e.what() + "; please report this with the command line");
-  }
+  return run_guarded([&] { return parse_and_run(app, argc, argv); });
 }
 
 }  // namespace penumbra::apps

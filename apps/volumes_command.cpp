@@ -11,6 +11,7 @@
 #include "apps/options.h"
 #include "apps/outputs.h"
 #include "apps/reports.h"
+#include "apps/scene_volumes.h"
 #include "mesh/error.h"
 #include "render/area_light.h"
 #include "volumes/checks.h"
@@ -69,18 +70,6 @@ void check(const Arguments& arguments) {
   require_writable(arguments.report);
 }
 
-// A sphere around everything: every volume reaches beyond it.
-ExtrudeOptions extrude_options(const Arguments& arguments, const Scene& scene) {
-  Bounds bounds = scene.bounds();
-  bounds.add(scene.light.center - Vec3(scene.light.radius));
-  bounds.add(scene.light.center + Vec3(scene.light.radius));
-  ExtrudeOptions options;
-  options.bound_center = bounds.center();
-  options.bound_radius = 1.01 * bounds.radius();
-  options.cone_segments = arguments.cone_segments;
-  return options;
-}
-
 class Stages {
  public:
   template <class Call>
@@ -136,7 +125,8 @@ void add_object(const Arguments& arguments, const Scene& scene, std::size_t numb
 
 Volumes build_volumes(const Arguments& arguments, const Scene& scene) {
   Volumes volumes;
-  ExtrudeOptions options = extrude_options(arguments, scene);
+  ExtrudeOptions options = extrude_options_for(scene);
+  options.cone_segments = arguments.cone_segments;
   ProgressLine progress("volumes");
   options.progress = progress.callback();
   for (std::size_t i = 0; i < scene.objects.size(); ++i)

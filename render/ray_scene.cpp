@@ -85,5 +85,6 @@ RayScene::RayScene(const Scene& scene, int threads) : frame_(ray_frame(scene)) {
 
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
+RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
 }  // namespace penumbra

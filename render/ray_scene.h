@@ -31,6 +31,7 @@ class RayScene {
   RayScene(const Scene& scene, int threads);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
+  RayScene& operator=(RayScene&&) noexcept;
 
   const RayFrame& frame() const { return frame_; }
   double build_ms() const { return build_ms_; }

@@ -250,6 +250,12 @@ Renderer::Renderer(const Scene& scene, const RenderOptions& options)
     : state_(std::make_unique<State>(scene, options)) {}
 Renderer::~Renderer() = default;
 
+void Renderer::follow_light(const RenderOptions& options) {
+  const double scale = state_->rays.frame().scale;
+  state_->rays = RayScene(state_->scene, options.threads);
+  if (state_->rays.frame().scale != scale) state_->d_buffer.reset();  // casters were uploaded in that scale
+}
+
 RenderResult Renderer::render_frame(const RenderOptions& options) {
   if (!takes_rectangles(options.method))
     require_disk(state_->scene, "method " + std::string(name_of(options.method)));

@@ -1,0 +1,72 @@
+#include "apps/viewer/actions.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/viewer/state_file.h"
+#include "mesh/error.h"
+
+namespace penumbra::viewer {
+namespace {
+
+// STEM-001END, the first number for which there is no file yet.
+std::filesystem::path fresh_name(const std::filesystem::path& folder, const State& state,
+                                 const std::string& end) {
+  const std::string stem = state.path.stem().string();
+  for (int number = 1;; ++number) {
+    char digits[16];
+    std::snprintf(digits, sizeof digits, "-%03d", number);
+    const std::filesystem::path path = folder / (stem + digits + end);
+    if (!std::filesystem::exists(path)) return path;
+  }
+}
+
+std::string save_picture(const ActionInput& input) {
+  if (!input.frame || !input.settled || input.frame->sides.empty())
+    return "the picture is not final yet; try again in a moment";
+  const std::filesystem::path path = fresh_name(input.folder, input.state, ".png");
+  write_png(path, input.frame->sides.front().result->image, input.state.exposure);
+  return "saved " + path.string();
+}
+
+std::filesystem::path save_state_file(const ActionInput& input) {
+  const std::filesystem::path path = fresh_name(input.folder, input.state, ".json");
+  save_state(path, input.state);
+  return path;
+}
+
+std::string copy_command(const ActionInput& input) {
+  const std::string command = headless_command(save_state_file(input), input.state);
+  ImGui::SetClipboardText(command.c_str());
+  return "copied: " + command;
+}
+
+}  // namespace
+
+Method next_method(Method method, int step) {
+  const std::vector<std::string> names = method_names();
+  const auto count = static_cast<std::ptrdiff_t>(names.size());
+  const auto at = std::find(names.begin(), names.end(), name_of(method)) - names.begin();
+  return method_of(names[static_cast<std::size_t>((at + step + count) % count)]);
+}
+
+std::string perform(Command command, const ActionInput& input) {
+  try {
+    switch (command) {
+      case Command::kSavePicture:
+        return save_picture(input);
+      case Command::kSaveState:
+        return "saved " + save_state_file(input).string();
+      case Command::kCopyCommand:
+        return copy_command(input);
+      default:
+        return {};
+    }
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,25 @@
+// What writes a picture or a state at a key press. Each returns a line to show.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "apps/viewer/commands.h"
+#include "apps/viewer/render_worker.h"
+#include "apps/viewer/state.h"
+
+namespace penumbra::viewer {
+
+/// The method `step` places further in the list, around its end.
+Method next_method(Method method, int step);
+
+struct ActionInput {
+  const State& state;
+  const Frame* frame;  ///< what is shown; may be null
+  bool settled;        ///< and whether it is the full picture
+  std::filesystem::path folder;
+};
+/// Never throws for what can go wrong outside: the line says it.
+std::string perform(Command command, const ActionInput& input);
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,15 @@
+// From a frame to what is shown: the pictures of each side and their difference.
+#pragma once
+
+#include "apps/viewer/picture_texture.h"
+#include "apps/viewer/render_worker.h"
+
+namespace penumbra::viewer {
+
+/// The bytes that write_png writes.
+Pixels picture_of(const Side& side, double exposure);
+/// Visibility of the left side minus that of the right in apps/picture.h's signed colours, `scale` saturates
+/// them; grey where no surface is seen. Both sides have one size.
+Pixels difference_of(const Side& left, const Side& right, double scale);
+
+}  // namespace penumbra::viewer

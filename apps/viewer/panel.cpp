@@ -1,0 +1,249 @@
+#include "apps/viewer/panel.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "apps/viewer/method_settings.h"
+#include "mesh/error.h"
+#include "volumes/detail/vectors.h"
+
+namespace penumbra::viewer {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+using Places = std::map<std::string, PicturePoint>;
+
+void note_place(Places& places, const std::string& name) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places[name] = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
+}
+
+void help_on_hover(const std::string& text) {
+  if (!ImGui::IsItemHovered() || text.empty()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(320.0f);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool slider(Places& places, const char* label, double& value, double low, double high, const char* format,
+            ImGuiSliderFlags flags = 0) {
+  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format, flags);
+  note_place(places, label);
+  return changed;
+}
+
+bool combo(const char* label, std::string& value, const std::vector<std::string>& words) {
+  bool changed = false;
+  if (!ImGui::BeginCombo(label, value.c_str())) return false;
+  for (const std::string& word : words)
+    if (ImGui::Selectable(word.c_str(), word == value)) {
+      value = word;
+      changed = true;
+    }
+  ImGui::EndCombo();
+  return changed;
+}
+
+// One setting as a combo or a number; the command line decides whether a value is accepted.
+void setting_widget(RenderOptions& options, const Setting& setting, int& revision) {
+  std::string value = setting.value;
+  const bool changed = setting.words.empty() ? ImGui::InputText(setting.name.c_str(), &value,
+                                                                ImGuiInputTextFlags_EnterReturnsTrue)
+                                             : combo(setting.name.c_str(), value, setting.words);
+  help_on_hover(setting.help + (setting.words.empty() ? " (Enter applies)" : ""));
+  if (!changed) return;
+  try {
+    set(options, setting.name, value);
+    ++revision;
+  } catch (const UsageError&) {  // the field shows the old value again
+  }
+}
+
+void method_widgets(const char* label, RenderOptions& options, int& revision, Places& places) {
+  ImGui::PushID(label);
+  std::string method = name_of(options.method);
+  const bool changed = combo(label, method, method_names());
+  note_place(places, label);
+  if (changed) {
+    options.method = method_of(method);
+    ++revision;
+  }
+  for (const Setting& each : settings_of(options))
+    if (!each.method.empty()) setting_widget(options, each, revision);
+  ImGui::PopID();
+}
+
+void methods_section(State& state, Places& places) {
+  if (!ImGui::CollapsingHeader("Method", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  int arrangement = static_cast<int>(state.arrangement);
+  constexpr const char* kNames[] = {"one", "split", "difference"};
+  for (int i = 0; i < 3; ++i) {
+    if (i) ImGui::SameLine();
+    ImGui::RadioButton(kNames[i], &arrangement, i);
+    note_place(places, kNames[i]);
+  }
+  state.arrangement = static_cast<Arrangement>(arrangement);
+  method_widgets("method", state.left, state.revision, places);
+  if (state.two_sided()) {
+    ImGui::Separator();
+    method_widgets("against", state.right, state.revision, places);
+  }
+  if (state.arrangement == Arrangement::kDifference)
+    slider(places, "scale", state.difference_scale, 0.005, 1.0, "+-%.3f visibility",
+           ImGuiSliderFlags_Logarithmic);
+  slider(places, "exposure", state.exposure, -6.0, 6.0, "%+.1f stops");
+}
+
+// Tilt from straight down and the compass direction it leans to; the normal changes only where a slider
+// moves.
+void tilt_sliders(DiskLight& light, Places& places) {
+  const Vec3 n = detail::unit(light.normal);
+  double tilt = kDegrees * std::acos(std::clamp(-n.y, -1.0, 1.0));
+  double turn = std::hypot(n.x, n.z) > 1e-9 ? kDegrees * std::atan2(n.x, n.z) : 0.0;
+  bool changed = slider(places, "tilt", tilt, 0.0, 180.0, "%.1f deg from down");
+  changed |= slider(places, "turn", turn, -180.0, 180.0, "%.1f deg about y");
+  if (!changed) return;
+  tilt = std::clamp(tilt, 0.01, 179.99);  // so that the turn is not forgotten
+  const double level = std::sin(tilt / kDegrees);
+  light.normal = {level * std::sin(turn / kDegrees), -std::cos(tilt / kDegrees),
+                  level * std::cos(turn / kDegrees)};
+}
+
+void light_section(State& state, Places& places) {
+  if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  const Bounds bounds =
+      state.model->caster_bounds().empty() ? state.model->bounds() : state.model->caster_bounds();
+  const double size = std::max(bounds.radius(), 1e-6);
+  const Vec3 middle = bounds.center();
+  slider(places, "x", state.light.center.x, middle.x - 6.0 * size, middle.x + 6.0 * size, "%.3f units");
+  slider(places, "y", state.light.center.y, middle.y - 6.0 * size, middle.y + 6.0 * size, "%.3f units");
+  slider(places, "z", state.light.center.z, middle.z - 6.0 * size, middle.z + 6.0 * size, "%.3f units");
+  tilt_sliders(state.light, places);
+  slider(places, "radius", state.light.radius, 0.0, 2.0 * size, "%.3f units");
+  double brightest = std::max({state.radiance.x, state.radiance.y, state.radiance.z});
+  const Vec3 hue = brightest > 0.0 ? state.radiance / brightest : Vec3(1.0);
+  if (slider(places, "radiance", brightest, 0.01, 1000.0, "%.3g W/(m2 sr)", ImGuiSliderFlags_Logarithmic))
+    state.radiance = hue * brightest;
+}
+
+void overlay_box(const char* label, Command command, bool& flag, Places& places) {
+  ImGui::Checkbox(label, &flag);
+  note_place(places, label);
+  help_on_hover(std::string(key_of(command).help) + " (" + key_of(command).shown + ")");
+}
+
+void overlays_section(State& state, Places& places) {
+  if (!ImGui::CollapsingHeader("Geometry", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  Overlays& o = state.overlays;
+  overlay_box("light", Command::kLightHandles, o.light, places);
+  ImGui::SameLine(110);
+  overlay_box("faces", Command::kFaces, o.faces, places);
+  ImGui::SameLine(210);
+  overlay_box("band", Command::kBand, o.band, places);
+  overlay_box("silhouettes", Command::kSilhouettes, o.silhouettes, places);
+  ImGui::SameLine(110);
+  overlay_box("sheets", Command::kSheets, o.sheets, places);
+  ImGui::SameLine(210);
+  overlay_box("probe", Command::kProbe, state.probe, places);
+  overlay_box("penumbra", Command::kPenumbraVolume, o.penumbra, places);
+  ImGui::SameLine(110);
+  overlay_box("umbra", Command::kUmbraVolume, o.umbra, places);
+  if (o.sheets || o.penumbra || o.umbra) slider(places, "cut", o.cut, 0.0, 1.0, "%.2f of the way");
+}
+
+void stage_bars(const RenderResult& result) {
+  double longest = 1e-9;
+  for (const StageTime& stage : result.stages) longest = std::max(longest, stage.milliseconds);
+  for (const StageTime& stage : result.stages) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.1f ms", stage.milliseconds);
+    ImGui::ProgressBar(static_cast<float>(stage.milliseconds / longest), {150.0f, 13.0f}, text);
+    ImGui::SameLine();
+    ImGui::TextUnformatted(stage.name.c_str());
+  }
+}
+
+void side_costs(const Side& side) {
+  const RenderResult& result = *side.result;
+  ImGui::Text("%s %dx%d: %.1f ms", name_of(side.options.method), result.image.width, result.image.height,
+              result.frame_ms);
+  stage_bars(result);
+  std::string counts;
+  for (const auto& [name, value] : result.stats["counts"].items())
+    counts += (counts.empty() ? "" : ", ") + name + " " + value.dump();
+  ImGui::TextWrapped("%s", counts.c_str());
+}
+
+void costs_section(const PanelInput& input) {
+  if (!ImGui::CollapsingHeader("Cost", ImGuiTreeNodeFlags_DefaultOpen) || !input.frame) return;
+  ImGui::PushID("costs");
+  ImGui::Text("%d pictures in the last second; %.0f MiB", input.costs->per_second(),
+              static_cast<double>(resident_bytes()) / (1 << 20));
+  const std::vector<float>& history = input.costs->history();
+  ImGui::PlotHistogram("ms", history.data(), static_cast<int>(history.size()), 0, nullptr, 0.0f, FLT_MAX,
+                       {220, 36});
+  for (const Side& side : input.frame->sides) side_costs(side);
+  ImGui::PopID();
+}
+
+void picture_status(const PanelInput& input) {
+  if (!input.frame) return ImGui::TextUnformatted("rendering the first picture");
+  const Frame& frame = *input.frame;
+  if (!frame.trouble.empty()) return ImGui::TextWrapped("no picture: %s", frame.trouble.c_str());
+  if (!input.settled && !frame.final && frame.reduction > 1)
+    ImGui::Text("draft, 1/%d of the pixels a side", frame.reduction);
+  else
+    ImGui::TextUnformatted(input.settled ? "final picture" : "draft");
+  for (const Side& side : frame.sides)
+    if (side.rays) ImGui::Text("reference: %d rays a pixel%s", side.rays, frame.refining ? ", refining" : "");
+  if (frame.error)
+    ImGui::Text("error over penumbra: RMSE %.4f, max %.3f", frame.error->rmse, frame.error->max_absolute);
+}
+
+std::optional<Command> buttons() {
+  constexpr Command kButtons[] = {Command::kSavePicture,   Command::kSaveState,      Command::kCopyCommand,
+                                  Command::kExportVolumes, Command::kExportSequence, Command::kHelp};
+  constexpr const char* kLabels[] = {"picture", "state", "command", "volumes", "sequence", "help"};
+  std::optional<Command> pressed;
+  for (std::size_t i = 0; i < std::size(kButtons); ++i) {
+    if (i % 3) ImGui::SameLine();
+    if (ImGui::Button(kLabels[i], {95.0f, 0.0f})) pressed = kButtons[i];
+    help_on_hover(std::string(key_of(kButtons[i]).help) + " (" + key_of(kButtons[i]).shown + ")");
+  }
+  return pressed;
+}
+
+}  // namespace
+
+std::optional<Command> Panel::draw(State& state, const PanelInput& input) {
+  places_.clear();
+  ImGui::SetNextWindowPos({static_cast<float>(input.x), 0.0f});
+  ImGui::SetNextWindowSize({static_cast<float>(kPanelWidth), static_cast<float>(input.height)});
+  ImGui::Begin("panel", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+  ImGui::PushItemWidth(180.0f);
+  std::size_t faces = 0;
+  for (const SceneObject& object : state.model->objects) faces += object.mesh.triangles().size();
+  ImGui::Text("%s: %zu faces", state.path.filename().c_str(), faces);
+  picture_status(input);
+  const std::optional<Command> pressed = buttons();
+  if (!input.message.empty()) ImGui::TextWrapped("%s", input.message.c_str());
+  methods_section(state, places_);
+  light_section(state, places_);
+  overlays_section(state, places_);
+  costs_section(input);
+  ImGui::PopItemWidth();
+  ImGui::End();
+  return pressed;
+}
+
+}  // namespace penumbra::viewer

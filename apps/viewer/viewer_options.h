@@ -1,0 +1,28 @@
+// The command line of penumbra-viewer.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "apps/viewer/state.h"
+
+namespace penumbra::viewer {
+
+struct ViewerOptions {
+  std::vector<std::filesystem::path> files;
+  int width = 960, height = 600;  ///< of the picture; the panel is beside it
+  State state;                    ///< methods and settings to start with
+  std::optional<Method> method;   ///< where given, instead of what a saved state says
+  std::optional<Arrangement> view;
+  bool plain = false;  ///< neither panel nor handles
+  std::filesystem::path screenshot;
+  int frames = 1;                      ///< window frames before the screenshot
+  std::filesystem::path status;        ///< written whenever what it says changes
+  std::filesystem::path output = ".";  ///< folder for pictures and states that are saved
+};
+
+/// Runs the whole program: exit code as apps/failures.h has them.
+int run_viewer(int argc, char** argv);
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,55 @@
+// A window with an OpenGL context and Dear ImGui in it; alive as long as this object.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "render/gl/functions.h"
+
+struct GLFWwindow;
+
+namespace penumbra::viewer {
+
+class Window {
+ public:
+  /// Throws SystemError where there is no display or no OpenGL 4.5.
+  Window(int width, int height, const std::string& title);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  const gl::Functions& functions() const { return gl_; }
+  bool closing() const;
+  void close();
+  bool minimised() const;
+  void set_title(const std::string& title);
+  void set_size(int width, int height);
+  /// Files dropped since the last call.
+  std::vector<std::string> take_dropped();
+
+  /// Keys pressed since the last call, however short: ImGui only knows which are down when a frame begins.
+  struct Key {
+    int key;  ///< GLFW's number
+    bool shift, control;
+  };
+  std::vector<Key> take_keys();
+
+  /// Waits for an event at most so long; a negative time has no end. `wake` ends it from any thread.
+  void wait(double seconds);
+  static void wake();
+
+  void begin_frame();  ///< polls nothing; clears and starts ImGui's frame
+  void draw_frame();   ///< everything that ImGui was told, into the back buffer
+  void show_frame();   ///< swaps
+  /// The back buffer as 8-bit RGB, row 0 at the top. Between draw_frame and show_frame.
+  std::vector<unsigned char> read_pixels(int& width, int& height) const;
+
+ private:
+  GLFWwindow* window_ = nullptr;
+  gl::Functions gl_;
+  std::vector<std::string> dropped_;
+  std::vector<Key> keys_;
+};
+
+}  // namespace penumbra::viewer
