@@ -59,8 +59,8 @@ class Renderer {
   explicit Renderer(const Scene& scene, const RenderOptions& options);
   ~Renderer();
   RenderResult render_frame(const RenderOptions& options);
-  /// To be called when the scene's light has moved or changed its size: the rays' frame follows it, so that the
-  /// next image is bit for bit that of a new renderer. What does not depend on the light is kept.
+  /// To be called when the scene's light has moved or changed its size: the rays' frame follows it, so that
+  /// the next image is bit for bit that of a new renderer. What does not depend on the light is kept.
   void follow_light(const RenderOptions& options);
 
  private:

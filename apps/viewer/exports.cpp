@@ -9,6 +9,11 @@
 #include "volumes/volumes.h"
 
 namespace penumbra::viewer {
+namespace {
+
+constexpr int kPictures = 24;  // of a sequence
+
+}  // namespace
 
 std::string export_volumes(const std::filesystem::path& folder, const State& state) {
   const Scene scene = current_scene(state);
@@ -42,18 +47,18 @@ DiskLight light_on_path(const State& state, double t) {
   return light;
 }
 
-std::string export_sequence(const std::filesystem::path& folder, const State& state, int count) {
+std::string export_sequence(const std::filesystem::path& folder, const State& state) {
   Scene scene = current_scene(state);
   Renderer renderer(scene, state.left);
-  for (int i = 0; i < count; ++i) {
-    scene.light = light_on_path(state, count > 1 ? static_cast<double>(i) / (count - 1) : 1.0);
+  for (int i = 0; i < kPictures; ++i) {
+    scene.light = light_on_path(state, static_cast<double>(i) / (kPictures - 1));
     renderer.follow_light(state.left);
     char end[32];
     std::snprintf(end, sizeof end, "-path-%03d.png", i + 1);
     write_png(folder / (state.path.stem().string() + end), renderer.render_frame(state.left).image,
               state.exposure);
   }
-  return "saved " + std::to_string(count) + " pictures " +
+  return "saved " + std::to_string(kPictures) + " pictures " +
          (folder / (state.path.stem().string() + "-path-*.png")).string();
 }
 

@@ -17,9 +17,9 @@ std::string export_volumes(const std::filesystem::path& folder, const State& sta
 /// The light on its way from that of the file to that of now: `t` in [0, 1].
 DiskLight light_on_path(const State& state, double t);
 
-/// `count` pictures of the left method along the light's path: FOLDER/STEM-path-001.png and on, full quality.
+/// 24 pictures of the left method along the light's path: FOLDER/STEM-path-001.png and on, full quality.
 /// Throws SystemError and what rendering throws.
-std::string export_sequence(const std::filesystem::path& folder, const State& state, int count);
+std::string export_sequence(const std::filesystem::path& folder, const State& state);
 
 /// One export at a time on a thread of its own.
 class Exports {

@@ -24,8 +24,6 @@
 namespace penumbra::viewer {
 namespace {
 
-constexpr int kSequence = 24;  // pictures along the light's path
-
 class Viewer {
  public:
   Viewer(ViewerOptions options, State state, std::string message);
@@ -258,6 +256,12 @@ void Viewer::obey(Command command) {
       message_ =
           perform(command,
                   {.state = state_, .frame = view_.frame(), .settled = settled(), .folder = options_.output});
+      break;
+    case Command::kExportVolumes:
+      message_ = exports_.start(export_volumes, options_.output, state_);
+      break;
+    case Command::kExportSequence:
+      message_ = exports_.start(export_sequence, options_.output, state_);
       break;
     default:
       obey_view(command);

@@ -139,6 +139,21 @@ TEST_F(WindowTest, KeysChangeMethodAndArrangementAndTheDividerMoves) {
   EXPECT_EQ(wait_for_end(), 0);
 }
 
+TEST_F(WindowTest, ExportsVolumesAndASequence) {
+  open({kCube, "--size", "160x120"});
+  const auto says = [](const char* words) {
+    return
+        [words](const Json& s) { return s["message"].get<std::string>().find(words) != std::string::npos; };
+  };
+  key("ctrl+e");
+  until("the volumes", says("saved"));
+  for (const char* kind : {"sheets", "penumbra", "umbra"})
+    EXPECT_TRUE(std::filesystem::exists(file(std::string("cube-medium-") + kind + ".ply"))) << kind;
+  key("ctrl+p");
+  until("the sequence", says("24 pictures"));
+  EXPECT_TRUE(std::filesystem::exists(file("cube-medium-path-024.png")));
+}
+
 TEST_F(WindowTest, BadInputIsOneLineAndItsExitCode) {
   for (const auto& [arguments, code] : {std::pair(std::vector<std::string>{"nowhere.json"}, 3),
                                         {{kCube, "--colour"}, 2},
