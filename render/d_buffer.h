@@ -66,9 +66,11 @@ class DBuffer {
   /// current by each call.
   DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~DBuffer();
+  /// The receivers, once per camera; copied. Cost O(pixels).
   void set_surface(const SurfaceBuffer& surface);
   /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.
-  /// Throws UsageError for a size outside its range.
+  /// Throws UsageError for a size or entries outside their range and before set_surface, SystemError where
+  /// OpenGL fails. Cost O(faces + band + texels + pixels), and one or two rays a pixel with CenterTest::kRay.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
 
  private:
