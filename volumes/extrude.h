@@ -23,12 +23,15 @@ struct ExtrudeOptions {
   double bound_radius = 0.0;  ///< scene units; 0: ten times the sphere around caster and light
   /// Corners of the polygon circumscribed to the disk, at least 3 (sheets: per full turn of a cone).
   int cone_segments = 16;
-  /// One cell per convex component where there are such; false: one per triangle everywhere.
+  /// One cell per convex component where there are such; false: they are treated as the others are.
   bool split_convex = true;
   /// Closed outward components in front of the light have no point of negative winding number (as any that
   /// does not cross itself): faces that look away from the whole light then need no cells. false: every face
   /// gets one.
   bool assume_solid = true;
+  /// With `assume_solid`: one cell per patch of faces whose hull is proved to lie in the solid; false: one
+  /// per face. Both volumes contain the same points but for the polygon around the disk.
+  bool merge_faces = true;
   std::uint32_t object = 0;  ///< written to tags
   Progress progress;
 };
@@ -48,11 +51,13 @@ ShadowMesh extrude_sheets(const TriangleMesh& mesh, const DiskLight& light, cons
 /// A volume containing every point in front of the light's plane, within the bound, at which the caster
 /// blocks some of the disk's area; also the caster's own body. A sum of convex cells, each everything that
 /// one convex body K can keep from some of P (detail/penumbra_cell.h), P a polygon circumscribed to the disk:
-/// K is the hull of a convex component in front of the light, or a triangle clipped to the half-space in
-/// front (of a closed outward component in front of the light only those that are not none-frontfacing).
+/// K is the hull of a convex component in front of the light; of other closed outward components there the
+/// hull of a patch of faces that the component contains (detail/convex_patches.h), the faces being those that
+/// are not none-frontfacing; else a triangle clipped to the half-space in front.
 /// Cells without interior are left out. A cell of a body that touches the disk is the half-space in front.
 /// Inside a cell the winding number is 1; inside the volume it is the number of cells there. Deterministic,
-/// on all cores. Throws Cancelled. Cost O(cells · cone_segments · log cone_segments).
+/// cells on all cores. Throws Cancelled. Cost O(F log F + v · log v), v being the cells' vertices,
+/// cone_segments and more of each.
 ShadowMesh extrude_penumbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
                             const ExtrudeOptions& options = {});
 

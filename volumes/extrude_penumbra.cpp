@@ -5,6 +5,7 @@
 
 #include "mesh/error.h"
 #include "volumes/detail/convex_component.h"
+#include "volumes/detail/convex_patches.h"
 #include "volumes/detail/penumbra_cell.h"
 #include "volumes/detail/predicate_tiers.h"
 #include "volumes/extrude.h"
@@ -13,12 +14,13 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::size_t kCellsPerStep = 1024;  // between two calls of progress
+constexpr std::size_t kCellsPerStep = 512, kFacesPerStep = 2048;  // between two calls of progress
+constexpr double kChoosing = 0.5;                                 // its share of the time
 
-/// A convex body to be extruded: one face, or all vertices of a convex component.
+/// A convex body to be extruded: the hull of some vertices, or one face.
 struct Body {
   FaceId source;
-  const Component* component = nullptr;  ///< null: the face alone
+  std::vector<std::uint32_t> vertices{};  ///< none: the face alone, of which some may be behind the light
 };
 
 class PenumbraExtruder {
@@ -44,7 +46,7 @@ class PenumbraExtruder {
       cells.assign(end - begin, {});
       tbb::parallel_for(begin, end, [&](std::size_t i) { cells[i - begin] = cell_of(bodies[i]); });
       for (std::size_t i = begin; i < end; ++i) append(cells[i - begin], bodies[i].source, result);
-      report(end, bodies.size());
+      report(kChoosing + (1.0 - kChoosing) * share(end, bodies.size()));
     }
     return result;
   }
@@ -62,19 +64,42 @@ class PenumbraExtruder {
 
   std::vector<Body> choose_bodies() const {
     std::vector<Body> bodies;
+    std::size_t patched = 0;  // faces
+    const auto report_some = [&](const detail::ConvexPatch& patch) {
+      const std::size_t steps = patched / kFacesPerStep;
+      patched += patch.faces.size();
+      if (patched / kFacesPerStep > steps) report(kChoosing * share(patched, mesh_.triangles().size()));
+    };
+    detail::PatchFinder finder(mesh_);
     for (const Component& component : mesh_.components()) {
       const bool front = std::all_of(component.faces.begin(), component.faces.end(),
                                      [&](FaceId f) { return in_front(triangle(f)); });
       const bool solid = front && component.closed && component.signed_volume > 0.0;
       if (solid && options_.split_convex && detail::is_convex(mesh_, component)) {
-        bodies.push_back({component.faces.front(), &component});
+        bodies.push_back({component.faces.front(), vertices_of(component)});
         continue;
       }
+      std::vector<FaceId> casting;
       for (const FaceId f : component.faces) {
-        if (casts_alone(f, solid && options_.assume_solid)) bodies.push_back({f});
+        if (casts(f, solid && options_.assume_solid)) casting.push_back(f);
+      }
+      if (solid && options_.assume_solid && options_.merge_faces) {
+        add_patches(finder.find(component, casting, report_some), bodies);
+      } else {
+        for (const FaceId f : casting) bodies.push_back({f});
       }
     }
     return bodies;
+  }
+
+  void add_patches(std::vector<detail::ConvexPatch> patches, std::vector<Body>& bodies) const {
+    for (detail::ConvexPatch& patch : patches) {
+      if (patch.faces.size() > 1 && detail::is_cut_by_depth(positions_of(patch.vertices), reach_)) {
+        bodies.push_back({patch.faces.front(), std::move(patch.vertices)});
+      } else {
+        for (const FaceId f : patch.faces) bodies.push_back({f});
+      }
+    }
   }
 
   /// A solid in front of the light needs no cells for faces that look away from the whole disk. Let x be
@@ -82,7 +107,7 @@ class PenumbraExtruder {
   /// surface changes somewhere and is 0 in the end; so if it is not negative at x, it falls somewhere, and
   /// where it falls the path leaves through a face that looks at p. The same path proves that the cells hold
   /// the solid itself: from inside it falls too.
-  bool casts_alone(FaceId f, bool solid) const {
+  bool casts(FaceId f, bool solid) const {
     if (solid && classes_.faces[index(f)] == FaceClass::kNoneFront) return false;
     const IndexedTriangle& t = triangle(f);
     if (!reaches_front(t)) return false;
@@ -92,19 +117,24 @@ class PenumbraExtruder {
 
   detail::Cell cell_of(const Body& body) const {
     return detail::make_penumbra_cell(
-        body.component ? corners_of(*body.component) : corners_in_front(body.source), reach_, polygon_);
+        body.vertices.empty() ? corners_in_front(body.source) : positions_of(body.vertices), reach_,
+        polygon_);
   }
 
-  std::vector<Vec3> corners_of(const Component& component) const {
+  std::vector<std::uint32_t> vertices_of(const Component& component) const {
     std::vector<std::uint32_t> vertices;
     for (const FaceId f : component.faces) {
       for (const std::uint32_t v : triangle(f)) vertices.push_back(v);
     }
     std::sort(vertices.begin(), vertices.end());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    std::vector<Vec3> corners;
-    for (const std::uint32_t v : vertices) corners.push_back(mesh_.positions()[v]);
-    return corners;
+    return vertices;
+  }
+
+  std::vector<Vec3> positions_of(std::span<const std::uint32_t> vertices) const {
+    std::vector<Vec3> positions;
+    for (const std::uint32_t v : vertices) positions.push_back(mesh_.positions()[v]);
+    return positions;
   }
 
   /// The part of a face with depth ≥ 0. Where an edge crosses the light's plane the cut is made a hair behind
@@ -141,9 +171,11 @@ class PenumbraExtruder {
     ++out.cells;
   }
 
-  void report(std::size_t done, std::size_t all) const {
-    if (options_.progress && !options_.progress(static_cast<double>(done) / static_cast<double>(all)))
-      throw Cancelled();
+  static double share(std::size_t part, std::size_t all) {
+    return static_cast<double>(part) / static_cast<double>(all);
+  }
+  void report(double fraction) const {
+    if (options_.progress && !options_.progress(fraction)) throw Cancelled();
   }
 
   const TriangleMesh& mesh_;

@@ -187,6 +187,8 @@ TEST(ExtrudePenumbra, MixedFacesHaveCells) {
   const TriangleMesh mesh = knife();
   VolumeOptions options;
   options.extrude.split_convex = false;
+  EXPECT_EQ(build_shadow_volumes(mesh, large, options).penumbra.cells, 1u);
+  options.extrude.merge_faces = false;
   const ShadowMesh volume = build_shadow_volumes(mesh, large, options).penumbra;
   EXPECT_EQ(volume.cells, 6u);  // of 8 faces the two of the bottom look away
   testing::ShadowOracle oracle(mesh, large);

@@ -64,6 +64,10 @@ BodyExtent extent_of(std::span<const Vec3> body, const ShadowReach& reach) {
   return e;
 }
 
+bool is_deep(const BodyExtent& extent, const ShadowReach& reach) {
+  return extent.least_depth >= kLeastDepth * std::max(reach.far_depth, 2.0 * extent.greatest_depth);
+}
+
 /// Points of one cell: the body first, then those of its far end.
 struct CellPoints {
   std::vector<Vec3> points;
@@ -224,11 +228,13 @@ UnitPolygon::UnitPolygon(int count) : circumradius(1.0 / std::cos(std::numbers::
   }
 }
 
+bool is_cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach) {
+  return is_deep(extent_of(body, reach), reach);
+}
+
 Cell make_penumbra_cell(std::span<const Vec3> body, const ShadowReach& reach, const UnitPolygon& polygon) {
   const BodyExtent extent = extent_of(body, reach);
-  const double far_depth = std::max(reach.far_depth, 2.0 * extent.greatest_depth);
-  if (extent.least_depth >= kLeastDepth * far_depth)
-    return hull_of(cut_by_depth(body, reach, polygon, extent));
+  if (is_deep(extent, reach)) return hull_of(cut_by_depth(body, reach, polygon, extent));
   if (const auto points = cut_by_distance(body, reach, polygon, extent)) return hull_of(*points);
   return hull_of(half_space(reach, extent));
 }

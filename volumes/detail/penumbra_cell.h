@@ -30,6 +30,10 @@ struct UnitPolygon {
   double circumradius;
 };
 
+/// Whether the cell of conv(body) ends at a plane parallel to the light. Bodies that come too near to the
+/// light's plane for that end at a distance, the larger the body the more loosely.
+bool is_cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach);
+
 /// The cell of conv(body), body in front of the light's plane (or behind it by rounding). Contains, within
 /// the bound, every point that conv(body) shades from some point of the disk. Radius 0 takes the light as a
 /// point.
