@@ -18,6 +18,8 @@ struct TriangleMesh::Data {
   std::vector<std::uint32_t> source_triangles;
   std::vector<Component> components;
   BuildReport report;
+  Bounds bounds;
+  double longest_edge = 0.0;
 };
 
 namespace {
@@ -163,6 +165,13 @@ double signed_volume(const Component& component, const std::vector<Vec3>& positi
   return six_volumes / 6.0;
 }
 
+double longest(const std::vector<Edge>& edges, const std::vector<Vec3>& positions) {
+  double most = 0.0;
+  for (const Edge& e : edges)
+    most = std::max(most, glm::length(positions[index(e.to)] - positions[index(e.from)]));
+  return most;
+}
+
 }  // namespace
 
 TriangleMesh::TriangleMesh() : data_(std::make_shared<const Data>()) {}
@@ -202,6 +211,8 @@ TriangleMesh TriangleMesh::build(std::span<const Vec3> positions, std::span<cons
       std::swap(e.from, e.to);
     }
   }
+  data->bounds = bounds_of(data->positions);
+  data->longest_edge = longest(data->edges, data->positions);
   TriangleMesh result;
   result.data_ = std::move(data);
   return result;
@@ -225,6 +236,14 @@ std::span<const std::array<EdgeId, 3>> TriangleMesh::face_edges() const {
 
 std::span<const std::uint32_t> TriangleMesh::source_triangles() const {
   return data_->source_triangles;
+}
+
+const Bounds& TriangleMesh::bounds() const {
+  return data_->bounds;
+}
+
+double TriangleMesh::longest_edge() const {
+  return data_->longest_edge;
 }
 
 std::span<const Component> TriangleMesh::components() const {

@@ -62,6 +62,15 @@ struct BuildOptions {
   bool flip_inside_out = true;  ///< turn closed components of negative signed volume outward, cavities too
 };
 
+struct Bounds {
+  Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+  bool empty() const { return !(low.x <= high.x); }
+  void add(const Vec3& p);
+  void add(const Bounds& b);
+  Vec3 center() const { return 0.5 * low + 0.5 * high; }
+  double radius() const;  ///< half the diagonal; 0 when empty
+};
+
 class TriangleMesh {
  public:
   TriangleMesh();  ///< empty
@@ -82,6 +91,8 @@ class TriangleMesh {
   const BuildReport& report() const;
 
   const Vec3& position(VertexId v) const { return positions()[penumbra::index(v)]; }
+  const Bounds& bounds() const;  ///< of the positions
+  double longest_edge() const;   ///< its length in scene units, rounded (infinite on overflow); 0: no edge
   bool empty() const { return triangles().empty(); }
   bool is_closed() const;  ///< every component closed, and at least one face
 
@@ -90,14 +101,6 @@ class TriangleMesh {
   std::shared_ptr<const Data> data_;  ///< immutable: copies are cheap and share it
 };
 
-struct Bounds {
-  Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-  bool empty() const { return !(low.x <= high.x); }
-  void add(const Vec3& p);
-  void add(const Bounds& b);
-  Vec3 center() const { return 0.5 * low + 0.5 * high; }
-  double radius() const;  ///< half the diagonal; 0 when empty
-};
 Bounds bounds_of(std::span<const Vec3> positions);
 
 }  // namespace penumbra

@@ -12,6 +12,7 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kFacesPerTask = 2048;
+constexpr std::size_t kBlock = detail::QuickClassifier::Block::kFaces;
 
 struct Corners {
   const Vec3 &a, &b, &c;
@@ -49,18 +50,36 @@ FaceClass classify_hard_face(const Corners& f, const DiskLight& light, TierTally
 Counts classify_some(const TriangleMesh& mesh, const DiskLight& light, std::size_t begin, std::size_t end,
                      FaceClass* out) {
   const detail::QuickClassifier quickly(light);
+  const double bound = quickly.bound_of(mesh);
   const Vec3* positions = mesh.positions().data();
   const IndexedTriangle* triangles = mesh.triangles().data();
   Counts counts;
   std::size_t hard = 0;
-  for (std::size_t i = begin; i != end; ++i) {
-    const IndexedTriangle& t = triangles[i];
-    const Corners f{positions[t[0]], positions[t[1]], positions[t[2]]};
-    if (const auto quick = quickly(f.a, f.b, f.c)) {
-      out[i] = *quick;
-    } else {
-      ++hard;
-      out[i] = classify_hard_face(f, light, counts.tally);
+  detail::QuickClassifier::Block block{};
+  for (std::size_t first = begin; first < end; first += kBlock) {
+    const std::size_t count = std::min(kBlock, end - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const IndexedTriangle& t = triangles[first + i];
+      for (int k = 0; k < 3; ++k) {
+        block.a[k][i] = positions[t[0]][k];
+        block.b[k][i] = positions[t[1]][k];
+        block.c[k][i] = positions[t[2]][k];
+      }
+    }
+    quickly.evaluate(block);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (const auto quick = quickly.class_of(block, i, bound)) {
+        out[first + i] = *quick;
+        continue;
+      }
+      const IndexedTriangle& t = triangles[first + i];
+      const Corners f{positions[t[0]], positions[t[1]], positions[t[2]]};
+      if (const auto own = quickly(f.a, f.b, f.c)) {
+        out[first + i] = *own;
+      } else {
+        ++hard;
+        out[first + i] = classify_hard_face(f, light, counts.tally);
+      }
     }
   }
   counts.tally.filter += end - begin - hard;

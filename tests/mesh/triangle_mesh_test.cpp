@@ -35,6 +35,15 @@ Triangles joined(Triangles a, const Triangles& b, std::uint32_t offset) {
   return a;
 }
 
+TEST(TriangleMesh, KnowsItsBoundsAndItsLongestEdge) {
+  const TriangleMesh cube = TriangleMesh::build(kCubeCorners, kCube);
+  EXPECT_EQ(cube.bounds().low, Vec3(0.0));
+  EXPECT_EQ(cube.bounds().high, Vec3(1.0));
+  EXPECT_DOUBLE_EQ(cube.longest_edge(), std::sqrt(2.0));
+  EXPECT_TRUE(TriangleMesh().bounds().empty());
+  EXPECT_EQ(TriangleMesh().longest_edge(), 0.0);
+}
+
 TEST(TriangleMesh, EmptyInputIsAnEmptyMesh) {
   const TriangleMesh mesh = TriangleMesh::build({}, {});
   EXPECT_TRUE(mesh.empty());

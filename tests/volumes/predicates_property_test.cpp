@@ -7,6 +7,7 @@
 
 #include "tests/volumes/random_inputs.h"
 #include "tests/volumes/rational.h"
+#include "volumes/classify.h"
 #include "volumes/detail/predicate_tiers.h"
 #include "volumes/detail/quick_class.h"
 
@@ -135,6 +136,45 @@ TEST(PredicatesProperty, ClassifyFaceAgreesWithRationals) {
   std::cout << "  quick filter: " << quick_decisions << "\n";
   EXPECT_GT(quick_decisions, kInputs / 10);
   expect_agreement("classify_face", tally);
+}
+
+/// Meshes are classified with one error bound for all their faces first, then each with its own.
+TEST(PredicatesProperty, MeshesAreClassifiedLikeTheirFaces) {
+  const std::vector<IndexedTriangle> tetrahedron{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  testing::RandomInputs random(kSeed);
+  Tally tally;
+  long by_mesh_bound = 0;
+  for (int k = 0; k < kInputs / 4; ++k) {
+    const auto in = testing::predicate_input(random, k);
+    const TriangleMesh mesh =
+        TriangleMesh::build(in.p, tetrahedron, {.weld = false, .flip_inside_out = false});
+    const Classification classes = classify_faces(mesh, in.light);
+    tally.filter += static_cast<int>(classes.tally.filter);
+    tally.interval += static_cast<int>(classes.tally.interval);
+    tally.exact += static_cast<int>(classes.tally.exact);
+    const detail::QuickClassifier quickly(in.light);
+    detail::QuickClassifier::Block block{};
+    for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
+      const IndexedTriangle& t = mesh.triangles()[f];
+      const PredicateInput face{in.light,
+                                {mesh.positions()[t[0]], mesh.positions()[t[1]], mesh.positions()[t[2]]}};
+      for (int i = 0; i < 3; ++i) {
+        block.a[i][f] = face.p[0][i];
+        block.b[i][f] = face.p[1][i];
+        block.c[i][f] = face.p[2][i];
+      }
+      tally.disagreements += classes.faces[f] != classify_oracle(face);
+    }
+    quickly.evaluate(block);
+    for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
+      const auto quick = quickly.class_of(block, f, quickly.bound_of(mesh));
+      by_mesh_bound += quick.has_value();
+      tally.disagreements += quick && *quick != classes.faces[f];
+    }
+  }
+  std::cout << "  one bound a mesh: " << by_mesh_bound << "\n";
+  EXPECT_GT(by_mesh_bound, kInputs / 10);
+  expect_agreement("classify_faces", tally);
 }
 
 TEST(PredicatesProperty, Orient3dAgreesWithRationals) {

@@ -38,7 +38,7 @@ ShadowReach shadow_reach(const TriangleMesh& mesh, const DiskLight& light, const
                     .bound_radius = options.bound_radius,
                     .far_depth = 0.0};
   if (options.bound_radius == 0.0) {
-    Bounds bounds = bounds_of(mesh.positions());
+    Bounds bounds = mesh.bounds();
     bounds.add(light.center - Vec3(light.radius));
     bounds.add(light.center + Vec3(light.radius));
     reach.bound_center = bounds.center();
