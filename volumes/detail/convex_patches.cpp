@@ -1,7 +1,9 @@
 #include "volumes/detail/convex_patches.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
+#include <tuple>
 
 #include "volumes/detail/face_tree.h"
 #include "volumes/detail/predicate_tiers.h"
@@ -23,12 +25,38 @@ struct Neighbor {
   Plane plane;
 };
 
+/// Per face its place in an order that depends on where its corners are, not on numbering.
+std::vector<std::uint32_t> rank_faces(const TriangleMesh& mesh) {
+  const std::span<const Vec3> p = mesh.positions();
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return std::tie(p[a].x, p[a].y, p[a].z) < std::tie(p[b].x, p[b].y, p[b].z);
+  };
+  std::vector<std::uint32_t> order(p.size()), vertex_rank(p.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), before);
+  for (std::uint32_t i = 1; i < order.size(); ++i)
+    vertex_rank[order[i]] = before(order[i - 1], order[i]) ? i : vertex_rank[order[i - 1]];
+
+  std::vector<std::pair<IndexedTriangle, std::uint32_t>> faces;
+  for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f) {
+    IndexedTriangle key = mesh.triangles()[f];
+    for (std::uint32_t& v : key) v = vertex_rank[v];
+    std::sort(key.begin(), key.end());
+    faces.emplace_back(key, f);
+  }
+  std::sort(faces.begin(), faces.end());
+  std::vector<std::uint32_t> rank(faces.size());
+  for (std::uint32_t i = 0; i < faces.size(); ++i) rank[faces[i].second] = i;
+  return rank;
+}
+
 }  // namespace
 
 class PatchFinder::Grower {
  public:
   explicit Grower(const TriangleMesh& mesh)
       : mesh_(mesh),
+        rank_(rank_faces(mesh)),
         free_(mesh.triangles().size(), false),
         patch_near_(mesh.triangles().size(), 0),
         refused_by_(mesh.triangles().size(), 0) {}
@@ -36,9 +64,12 @@ class PatchFinder::Grower {
   std::vector<ConvexPatch> run(const Component& component, std::span<const FaceId> members,
                                const std::function<void(const ConvexPatch&)>& after_each) {
     tree_.emplace(mesh_, component.faces);
-    for (const FaceId f : members) free_[index(f)] = true;
+    std::vector<FaceId> seeds(members.begin(), members.end());
+    std::sort(seeds.begin(), seeds.end(),
+              [&](FaceId f, FaceId g) { return rank_[index(f)] < rank_[index(g)]; });
+    for (const FaceId f : seeds) free_[index(f)] = true;
     std::vector<ConvexPatch> patches;
-    for (const FaceId f : members) {
+    for (const FaceId f : seeds) {
       if (!free_[index(f)]) continue;
       patches.push_back(grow_from(f));
       if (after_each) after_each(patches.back());
@@ -70,9 +101,7 @@ class PatchFinder::Grower {
     free_[index(seed)] = false;
     if (!try_to_add(seed)) return {{seed}, {triangle(seed).begin(), triangle(seed).end()}};
     for (std::size_t i = 0; i < patch_.faces.size(); ++i) {
-      for (const EdgeId e : mesh_.face_edges()[index(patch_.faces[i])]) {
-        const Edge& edge = mesh_.edges()[index(e)];
-        const FaceId next = edge.left == patch_.faces[i] ? edge.right : edge.left;
+      for (const FaceId next : faces_around(patch_.faces[i])) {
         if (patch_.faces.size() == kMostFaces || !free_[index(next)] || refused_by_[index(next)] == number_)
           continue;
         if (try_to_add(next)) {
@@ -83,6 +112,17 @@ class PatchFinder::Grower {
       }
     }
     return patch_;
+  }
+
+  std::array<FaceId, 3> faces_around(FaceId f) const {
+    std::array<FaceId, 3> faces;
+    for (int i = 0; i < 3; ++i) {
+      const Edge& edge = mesh_.edges()[index(mesh_.face_edges()[index(f)][i])];
+      faces[i] = edge.left == f ? edge.right : edge.left;
+    }
+    std::sort(faces.begin(), faces.end(),
+              [&](FaceId g, FaceId h) { return rank_[index(g)] < rank_[index(h)]; });
+    return faces;
   }
 
   /// Adds a face if the hull then still is proved to have no other face in its interior.
@@ -174,6 +214,7 @@ class PatchFinder::Grower {
   }
 
   const TriangleMesh& mesh_;
+  std::vector<std::uint32_t> rank_;        ///< per face
   std::optional<FaceTree> tree_;           ///< of the component
   std::vector<char> free_;                 ///< per face: a member in no patch yet
   std::vector<std::uint32_t> patch_near_;  ///< per face: the number of the last patch it was near to

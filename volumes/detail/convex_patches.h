@@ -40,10 +40,11 @@ class PatchFinder {
   ~PatchFinder();
 
   /// Divides `members`, faces of `component` of which none is degenerate, into patches as above (of one face
-  /// where nothing can be joined). The component is closed and oriented outward. Deterministic; every patch
-  /// starts at the first member that is left and grows breadth first to at most 64 faces. Calls
-  /// `after_each(patch)` for each patch; should that throw, the finder is of no further use. Expected cost
-  /// O(n log n) for n faces of the component, with a factor of the faces near a patch.
+  /// where nothing can be joined). The component is closed and oriented outward. Every patch grows breadth
+  /// first to at most 64 faces; where it starts and goes first depends on positions alone, so that the order
+  /// of faces changes nothing. Calls `after_each(patch)` for each patch; should that throw, the finder is of
+  /// no further use. Expected cost O(n log n) for n faces of the component, with a factor of the faces near a
+  /// patch.
   std::vector<ConvexPatch> find(const Component& component, std::span<const FaceId> members,
                                 const std::function<void(const ConvexPatch&)>& after_each = {});
 
