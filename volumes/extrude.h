@@ -49,7 +49,8 @@ ShadowMesh extrude_sheets(const TriangleMesh& mesh, const DiskLight& light, cons
                           const ExtrudeOptions& options = {});
 
 /// A volume containing every point in front of the light's plane, within the bound, at which the caster
-/// blocks some of the disk's area; also the caster's own body. A sum of convex cells, each everything that
+/// blocks some of the disk's area; also the caster's own body. What lies in the light's plane or behind it
+/// blocks nothing: a lamp may be part of its ceiling. A sum of convex cells, each everything that
 /// one convex body K can keep from some of P (detail/penumbra_cell.h), P a polygon circumscribed to the disk:
 /// K is the hull of a convex component in front of the light; of other closed outward components there the
 /// hull of a patch of faces that the component contains (detail/convex_patches.h), the faces being those that

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "mesh/shapes.h"
+#include "tests/checks/soundness.h"
 #include "tests/volumes/scene_caster.h"
 #include "tests/volumes/triangle_tree.h"
 #include "volumes/convex_umbra.h"
@@ -23,59 +24,9 @@ namespace {
 
 constexpr std::uint64_t kSeed = 88;
 
-::testing::AssertionResult is_sound(const ShadowMesh& volume) {
-  for (const Vec3& p : volume.positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      return ::testing::AssertionFailure() << "a vertex is not finite";
-  }
-  std::vector<std::array<std::uint32_t, 2>> forward, backward;
-  for (const IndexedTriangle& t : volume.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      forward.push_back({t[k], t[(k + 1) % 3]});
-      backward.push_back({t[(k + 1) % 3], t[k]});
-    }
-  }
-  std::sort(forward.begin(), forward.end());
-  std::sort(backward.begin(), backward.end());
-  if (forward != backward) return ::testing::AssertionFailure() << "the volume is open";
-  return ::testing::AssertionSuccess();
-}
-
-/// As many edges leave a vertex as arrive, with the face that looks at more of the light on the left.
-::testing::AssertionResult is_balanced(const TriangleMesh& mesh, const std::vector<EdgeId>& edges,
-                                       const Classification& classes) {
-  std::map<VertexId, int> balance;
-  for (const EdgeId e : edges) {
-    const Edge& edge = mesh.edges()[index(e)];
-    const int turn = classes.faces[index(edge.left)] > classes.faces[index(edge.right)] ? 1 : -1;
-    balance[edge.from] += turn;
-    balance[edge.to] -= turn;
-  }
-  for (const auto& [vertex, sum] : balance) {
-    if (sum != 0) return ::testing::AssertionFailure() << "vertex " << index(vertex) << " is out of balance";
-  }
-  return ::testing::AssertionSuccess();
-}
-
 void expect_sound(const TriangleMesh& mesh, const DiskLight& light) {
-  SCOPED_TRACE(::testing::Message() << "light at (" << light.center.x << ", " << light.center.y << ", "
-                                    << light.center.z << "), radius " << light.radius);
-  VolumeOptions options;
-  options.sheets = true;
-  const ShadowVolumes v = build_shadow_volumes(mesh, light, options);
-  ASSERT_TRUE(is_sound(v.penumbra));
-  ASSERT_TRUE(is_sound(convex_umbra(mesh, light, v.classes)));
-  for (const Vec3& p : v.sheets.positions)
-    ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-  if (!mesh.is_closed()) return;
-  ASSERT_TRUE(is_balanced(mesh, v.silhouettes.umbra, v.classes));
-  ASSERT_TRUE(is_balanced(mesh, v.silhouettes.penumbra, v.classes));
-  for (const auto* edges : {&v.silhouettes.umbra, &v.silhouettes.penumbra}) {
-    for (const EdgeId e : *edges) {
-      const Edge& edge = mesh.edges()[index(e)];
-      ASSERT_EQ(line_outside_disk(mesh.position(edge.from), mesh.position(edge.to), light), Sign::kPositive);
-    }
-  }
+  ShadowVolumes volumes;
+  testing::expect_sound(mesh, light, volumes);
 }
 
 double step(double x, int ulps) {

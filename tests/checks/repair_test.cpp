@@ -11,24 +11,12 @@
 #include "mesh/error.h"
 #include "mesh/polygon_soup.h"
 #include "mesh/shapes.h"
+#include "tests/checks/soup.h"
 
 namespace penumbra {
 namespace {
 
-struct Soup {
-  std::vector<Vec3> positions;
-  std::vector<IndexedTriangle> triangles;
-
-  explicit Soup(const TriangleMesh& mesh)
-      : positions(mesh.positions().begin(), mesh.positions().end()),
-        triangles(mesh.triangles().begin(), mesh.triangles().end()) {}
-  void add(const Soup& other) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    positions.insert(positions.end(), other.positions.begin(), other.positions.end());
-    for (const IndexedTriangle& t : other.triangles)
-      triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-};
+using testing::Soup;
 
 /// Repairs, and checks that every input triangle is in the result, turned or not, or named as dropped.
 RepairResult repaired(const Soup& soup) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mesh/shapes.h"
+#include "tests/checks/soup.h"
 #include "tests/volumes/scene_caster.h"
 #include "volumes/convex_umbra.h"
 
@@ -11,27 +12,14 @@ namespace {
 
 const DiskLight kLight{{0, 10, 0}, {0, -1, 0}, 0.8};
 
-struct Soup {
-  std::vector<Vec3> positions;
-  std::vector<IndexedTriangle> triangles;
+using testing::Soup;
 
-  explicit Soup(const TriangleMesh& mesh)
-      : positions(mesh.positions().begin(), mesh.positions().end()),
-        triangles(mesh.triangles().begin(), mesh.triangles().end()) {}
-  void add(const Soup& other) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    positions.insert(positions.end(), other.positions.begin(), other.positions.end());
-    for (const IndexedTriangle& t : other.triangles)
-      triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  void turn_round() {
-    for (IndexedTriangle& t : triangles) std::swap(t[1], t[2]);
-  }
-  SurfaceFindings check(std::size_t most = 1000) const { return check_surface(positions, triangles, {most}); }
-};
+SurfaceFindings check(const Soup& soup, std::size_t most = 1000) {
+  return check_surface(soup.positions, soup.triangles, {most});
+}
 
 TEST(CheckSurface, ABoxIsASolid) {
-  const SurfaceFindings f = Soup(make_box({0, 0, 0}, Vec3(1))).check();
+  const SurfaceFindings f = check(Soup(make_box({0, 0, 0}, Vec3(1))));
   EXPECT_TRUE(f.closed());
   EXPECT_TRUE(f.self_intersections.empty());
   EXPECT_TRUE(f.degenerate.empty());
@@ -43,34 +31,34 @@ TEST(CheckSurface, ABoxIsASolid) {
 TEST(CheckSurface, AnInsideOutBoxBoundsNoVolume) {
   Soup box(make_box({0, 0, 0}, Vec3(1)));
   box.turn_round();
-  EXPECT_TRUE(box.check().closed());
-  EXPECT_FALSE(box.check().bounds_a_volume);
+  EXPECT_TRUE(check(box).closed());
+  EXPECT_FALSE(check(box).bounds_a_volume);
 }
 
 TEST(CheckSurface, ACavityIsPartOfASolidOnlyTurnedInward) {
   Soup outer(make_box({0, 0, 0}, Vec3(1))), inner(make_box({0, 0, 0}, Vec3(0.5)));
   Soup filled = outer;
   filled.add(inner);
-  EXPECT_FALSE(filled.check().bounds_a_volume);
+  EXPECT_FALSE(check(filled).bounds_a_volume);
   inner.turn_round();
   outer.add(inner);
-  EXPECT_EQ(outer.check().pieces, 2u);
-  EXPECT_EQ(outer.check().solid_pieces, 1u);  // the cavity alone is inside out
+  EXPECT_EQ(check(outer).pieces, 2u);
+  EXPECT_EQ(check(outer).solid_pieces, 1u);  // the cavity alone is inside out
 }
 
 TEST(CheckSurface, CountsOpenAndTurnedEdges) {
   Soup box(make_box({0, 0, 0}, Vec3(1)));
   std::swap(box.triangles[0][0], box.triangles[0][1]);
-  EXPECT_EQ(box.check().unmatched_half_edges, 6u);
-  EXPECT_FALSE(box.check().bounds_a_volume);
+  EXPECT_EQ(check(box).unmatched_half_edges, 6u);
+  EXPECT_FALSE(check(box).bounds_a_volume);
   box.triangles.erase(box.triangles.begin());
-  EXPECT_EQ(box.check().unmatched_half_edges, 3u);
+  EXPECT_EQ(check(box).unmatched_half_edges, 3u);
 }
 
 TEST(CheckSurface, ListsCrossingsByTriangles) {
   Soup two(make_triangle({0, 0, 0}, {2, 0, 0}, {0, 2, 0}));
   two.add(Soup(make_triangle({0.5, 0.5, -1}, {0.5, 0.5, 1}, {3, 3, 0})));
-  const SurfaceFindings f = two.check();
+  const SurfaceFindings f = check(two);
   ASSERT_EQ(f.self_intersections.size(), 1u);
   EXPECT_EQ(f.self_intersections[0], (std::array<std::uint32_t, 2>{0, 1}));
   EXPECT_EQ(f.crossed_pieces, 0u);
@@ -96,7 +84,7 @@ TEST(CheckSurface, OppositeFacesAndNonManifoldsDoNotReachCgal) {
   Soup box(make_box({0, 0, 0}, Vec3(1)));
   box.triangles.push_back(box.triangles[0]);
   box.triangles.push_back({box.triangles[0][0], box.triangles[0][2], box.triangles[0][1]});
-  const SurfaceFindings f = box.check();
+  const SurfaceFindings f = check(box);
   EXPECT_TRUE(f.closed());
   EXPECT_EQ(f.self_intersections.size(), 3u);
   EXPECT_FALSE(f.bounds_a_volume);
@@ -106,12 +94,12 @@ TEST(CheckSurface, OppositeFacesAndNonManifoldsDoNotReachCgal) {
 TEST(CheckSurface, TwoCrossingBoxesBoundNoVolume) {
   Soup two(make_box({0, 0, 0}, Vec3(1)));
   two.add(Soup(make_box({0.5, 0.3, 0.2}, Vec3(1))));
-  const SurfaceFindings f = two.check();
+  const SurfaceFindings f = check(two);
   EXPECT_EQ(f.solid_pieces, 2u);
   EXPECT_GT(f.self_intersections.size(), 0u);
   EXPECT_FALSE(f.bounds_a_volume);
-  EXPECT_EQ(two.check(3).self_intersections.size(), 3u);
-  EXPECT_FALSE(two.check(3).all_listed);
+  EXPECT_EQ(check(two, 3).self_intersections.size(), 3u);
+  EXPECT_FALSE(check(two, 3).all_listed);
 }
 
 TEST(CheckSurface, NamesDegenerateTriangles) {

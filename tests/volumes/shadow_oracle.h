@@ -62,17 +62,19 @@ Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const
     return v > 0 ? 1 : v < 0 ? -1 : 0;
   };
 
-  // 1. The part of the triangle in front of the light.
+  // 1. The part of the triangle in front of the light. One in the light's plane has none.
   std::vector<Vector<N>> polygon;
+  bool in_front = false;
   for (int i = 0; i < 3; ++i) {
     const Vector<N> p = vector_of<N>(triangle[i]), q = vector_of<N>(triangle[(i + 1) % 3]);
     const N dp = inner(m, minus(p, c)), dq = inner(m, minus(q, c));
     const int sp = sign(dp, depth_x), sq = sign(dq, depth_x);
     if (sp >= 0) polygon.push_back(p);
+    in_front = in_front || sp > 0;
     if (sp * sq < 0) polygon.push_back(plus(p, N(dp / (dp - dq)), minus(q, p)));
   }
   if (unsure) return Answer::kUnsure;
-  if (polygon.size() < 3) return Answer::kNo;
+  if (!in_front || polygon.size() < 3) return Answer::kNo;
 
   // 2. Side planes of the cone, turned inward. In the triangle's own plane nothing is hidden.
   const Vector<N> side1 = minus(polygon[1], polygon[0]), side2 = minus(polygon[2], polygon[0]);
