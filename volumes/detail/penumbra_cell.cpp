@@ -95,7 +95,7 @@ struct FarDisk {
 /// that polygon adds nothing.
 std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach& reach, double far_depth,
                                    double inradius, double circumradius) {
-  constexpr std::size_t kFewVertices = 64;
+  constexpr std::size_t kFewVertices = 12;
   constexpr int kDirections = 48;
   constexpr double kWellInside = 1e-9;  // of the polygon's size: far above rounding
   constexpr double kNoEdge = 1e-13;     // shorter edges are left out: together far below kWellInside
