@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "mesh/error.h"
 #include "volumes/detail/convex_component.h"
@@ -70,7 +71,7 @@ class PenumbraExtruder {
       patched += patch.faces.size();
       if (patched / kFacesPerStep > steps) report(kChoosing * share(patched, mesh_.triangles().size()));
     };
-    detail::PatchFinder finder(mesh_);
+    std::optional<detail::PatchFinder> finder;
     for (const Component& component : mesh_.components()) {
       const bool front = std::all_of(component.faces.begin(), component.faces.end(),
                                      [&](FaceId f) { return in_front(triangle(f)); });
@@ -84,7 +85,8 @@ class PenumbraExtruder {
         if (casts(f, solid && options_.assume_solid)) casting.push_back(f);
       }
       if (solid && options_.assume_solid && options_.merge_faces) {
-        add_patches(finder.find(component, casting, report_some), bodies);
+        if (!finder) finder.emplace(mesh_);
+        add_patches(finder->find(component, casting, report_some), bodies);
       } else {
         for (const FaceId f : casting) bodies.push_back({f});
       }
