@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "render/d_buffer.h"
@@ -37,23 +38,27 @@ class DBufferPasses {
   GLuint records() const { return record_texture_; }
 
  private:
-  enum class Against { kNothing, kFirst, kLast, kBehindLast };
+  /// The surface that entries are compared with, and on which side of it they have to lie.
+  enum class Against { kNothing, kBeforeFirst, kBeforeLast, kBehindLast };
   struct Entries {
     const gl::Object& vertices;
     std::size_t count;
   };
   void draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset);
-  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into,
+  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
                  const Entries& entries, Against against, const DBufferOptions& options);
-  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into,
-                  const Layer* after, const Entries& entries, Against against, const DBufferOptions& options);
-  void set_filter(const Layers& surface, const Layer* after, Against against) const;
+  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
+                  bool second, const Entries& entries, Against against, const DBufferOptions& options);
+  const gl::Program& entry_program(int surface, bool peel);
+  void bind_filter(const gl::Program& program, const Layers& surface, const Layer& first) const;
   void set_target(const gl::Program& program, const Target& target) const;
   void attach(const Layer& layer, int index) const;
   void bind(int unit, GLenum kind, GLuint texture) const;
 
   const gl::Functions& gl_;
-  gl::Program occluder_program_, entry_program_, filtered_program_;
+  gl::Program occluder_program_;
+  std::unique_ptr<gl::Program> entry_programs_[3]
+                                              [2];  ///< by SURFACE and PEEL of the shader, made when needed
   gl::Object caster_points_, caster_indices_, caster_array_, penumbra_vertices_, umbra_vertices_,
       entry_array_, record_buffer_, record_texture_;
   std::vector<CasterRange> casters_;
