@@ -47,17 +47,21 @@ struct DBuffer::Impl {
     detail::LightSpace space;
     glm::mat3 axes;  ///< scene frame → light's frame
     glm::vec3 offset;
+    std::vector<detail::Target> targets{};
+    detail::FootprintOptions footprint{};
+    detail::ReceiverGrid receivers{};
     std::vector<Boundary> boundaries{};  ///< one per caster
     detail::EntryGeometry geometry{};
-    std::vector<detail::Target> targets{};
+    detail::DBufferView view() const { return {targets, axes, offset, space.radius}; }
+    detail::EntryFootprints footprints(const Caster& caster, const Boundary& b) const {
+      return {*caster.mesh, space, b.supports, footprint};
+    }
   };
-  struct UvWindow {
-    glm::dvec2 low{1e300}, high{-1e300};
-  };
+  void choose_view(const DBufferOptions& options, Plan& plan) const;
   void find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const;
-  void find_geometry(const DBufferOptions& options, Plan& plan) const;
+  void find_geometry(Plan& plan) const;
   static nlohmann::json count(const Plan& plan);
-  UvWindow caster_window(const detail::LightSpace& space, double far_weight) const;
+  detail::UvBounds caster_window(const detail::LightSpace& space, double far_weight) const;
   double far_weight(const detail::LightSpace& space) const;
   void draw(const Plan& plan, const DBufferOptions& options, StageClock& clock);
 
@@ -108,7 +112,7 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
     }
     first_face += static_cast<std::uint32_t>(mesh.triangles().size());
   }
-  passes.upload_casters(points, indices, std::move(ranges));
+  passes.upload_casters(std::move(points), std::move(indices), std::move(ranges));
   gl::require_no_error(gl, "uploading casters");
 }
 
@@ -143,8 +147,8 @@ double DBuffer::Impl::far_weight(const detail::LightSpace& space) const {
 
 /// Where casters and their penumbrae are seen, in (x/z, y/z); everywhere for a caster that crosses the
 /// light's plane.
-DBuffer::Impl::UvWindow DBuffer::Impl::caster_window(const detail::LightSpace& space, double far) const {
-  UvWindow window;
+detail::UvBounds DBuffer::Impl::caster_window(const detail::LightSpace& space, double far) const {
+  detail::UvBounds window;
   for (const Caster& caster : casters) {
     std::size_t behind = 0;
     for (const Vec3& world : caster.mesh->positions()) {
@@ -155,12 +159,28 @@ DBuffer::Impl::UvWindow DBuffer::Impl::caster_window(const detail::LightSpace& s
       }
       const glm::dvec2 uv = glm::dvec2(p.x, p.y) / p.z;
       const double reach = space.radius * std::max(0.0, 1.0 / p.z - far);
-      window.low = glm::min(window.low, uv - reach);
-      window.high = glm::max(window.high, uv + reach);
+      window.add(uv - reach);
+      window.add(uv + reach);
     }
     if (behind > 0 && behind < caster.mesh->positions().size()) return {glm::dvec2(-1e9), glm::dvec2(1e9)};
   }
   return window;
+}
+
+/// Targets, and what of them will be read. Which entries a receiver reads is known beforehand only where a
+/// ray tells whether it sees the light's center; and where the furthest entries are kept, far ones count for
+/// all.
+void DBuffer::Impl::choose_view(const DBufferOptions& options, Plan& plan) const {
+  const double far = far_weight(plan.space);
+  const detail::UvBounds window = caster_window(plan.space, far);
+  plan.targets = detail::choose_targets(window.low, window.high, options.size);
+  if (plan.targets.empty()) return;
+  const bool hemicube = plan.targets.size() > 1;
+  const auto& w = plan.targets[0].window;
+  const double texel = std::max(w[1] - w[0], w[3] - w[2]) / options.size;
+  plan.footprint = {detail::kNearDepth, far, texel, hemicube};
+  if (!hemicube && options.center == CenterTest::kRay && options.conflict == Conflict::kNearest)
+    plan.receivers = shading.receiver_grid(plan.view(), options.size);
 }
 
 /// Classes to reach, stage by stage over all casters.
@@ -178,24 +198,17 @@ void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClo
     b.gaps = find_gap_faces(*c.mesh, light, b.classes, b.supports);
   });
   stage("reach", [&](const Caster& c, Boundary& b) {
-    b.reach = detail::find_reach(*c.mesh, light, b.supports, rays);
+    const auto read = detail::find_read_entries(plan.footprints(c, b), b.supports, b.gaps, plan.receivers);
+    b.reach = detail::find_reach(*c.mesh, light, b.supports, read, rays);
   });
 }
 
-/// Targets, and everything that is drawn into them.
-void DBuffer::Impl::find_geometry(const DBufferOptions& options, Plan& plan) const {
-  const double far = far_weight(plan.space);
-  const UvWindow window = caster_window(plan.space, far);
-  plan.targets = detail::choose_targets(window.low, window.high, options.size);
+void DBuffer::Impl::find_geometry(Plan& plan) const {
   if (plan.targets.empty()) return;
-  const bool hemicube = plan.targets.size() > 1;
-  const auto& w = plan.targets[0].window;
-  const double texel = std::max(w[1] - w[0], w[3] - w[2]) / options.size;
-  const detail::EntryGeometryOptions entry{detail::kNearDepth, far, texel, hemicube};
   for (std::size_t i = 0; i < casters.size(); ++i) {
     const Boundary& b = plan.boundaries[i];
-    detail::append_entry_geometry({*casters[i].mesh, plan.space, b.supports, b.gaps, b.reach}, entry,
-                                  plan.geometry);
+    const detail::EntryFootprints footprints = plan.footprints(casters[i], b);
+    detail::append_entry_geometry({footprints, b.supports, b.gaps, b.reach, plan.receivers}, plan.geometry);
   }
   detail::sort_by_geometry(plan.geometry);
 }
@@ -238,7 +251,7 @@ void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageC
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  passes.draw_occluders(plan.targets, plan.axes, plan.offset, *layers, options);
+  passes.draw_occluders(plan.targets, plan.axes, plan.offset, plan.receivers, *layers, options);
   gl.Finish();
   clock.finish("occluders");
   passes.draw_entries(plan.targets, *layers, options);
@@ -253,13 +266,14 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   Plan plan{space, light_matrix(space.axes), glm::vec3(space.to_light(origin))};
   if (options.center == CenterTest::kRay) shading.trace_center(light);
   clock.finish("center");
+  choose_view(options, plan);
+  clock.finish("receivers");
   find_boundaries(light, plan, clock);
-  find_geometry(options, plan);
+  find_geometry(plan);
   clock.finish("facets");
   frame.counts = count(plan);
   draw(plan, options, clock);
-  const detail::DBufferView view{plan.targets, plan.axes, plan.offset, space.radius};
-  frame.visibility = shading.shade(view, plan.geometry, *layers, passes.records(), options);
+  frame.visibility = shading.shade(plan.view(), plan.geometry, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
   frame.counts["buffer_bytes"] = layers->bytes();

@@ -15,16 +15,6 @@ void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std:
   gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
-/// Whether the whole box is in front of the light's plane.
-bool is_in_front(const Bounds& b, const glm::mat3& axes, const glm::vec3& offset) {
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
-                      corner & 4 ? b.high.z : b.low.z);
-    if ((axes * p + offset).z <= static_cast<float>(kNearDepth)) return false;
-  }
-  return true;
-}
-
 /// Whether penumbra entries have to stand a comparison with the first surface. Where rays tell which
 /// receivers see the light's center those lie on or before that surface, so that the nearest entry before
 /// them is before it too.
@@ -40,6 +30,7 @@ DBufferPasses::DBufferPasses(const gl::Functions& gl)
                              {GL_FRAGMENT_SHADER, "d_buffer_occluder.frag.glsl"}}),
       caster_points_(gl, Object::Kind::kBuffer),
       caster_indices_(gl, Object::Kind::kBuffer),
+      read_indices_(gl, Object::Kind::kBuffer),
       caster_array_(gl, Object::Kind::kVertexArray),
       penumbra_vertices_(gl, Object::Kind::kBuffer),
       umbra_vertices_(gl, Object::Kind::kBuffer),
@@ -47,13 +38,14 @@ DBufferPasses::DBufferPasses(const gl::Functions& gl)
       record_buffer_(gl, Object::Kind::kBuffer),
       record_texture_(gl, Object::Kind::kTexture) {}
 
-void DBufferPasses::upload_casters(const std::vector<glm::vec3>& points,
-                                   const std::vector<std::uint32_t>& indices,
+void DBufferPasses::upload_casters(std::vector<glm::vec3> points, std::vector<std::uint32_t> indices,
                                    std::vector<CasterRange> casters) {
+  points_ = std::move(points);
+  indices_ = std::move(indices);
   casters_ = std::move(casters);
   gl_.BindVertexArray(caster_array_);
-  fill(gl_, GL_ARRAY_BUFFER, caster_points_, points, GL_STATIC_DRAW);
-  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, caster_indices_, indices, GL_STATIC_DRAW);
+  fill(gl_, GL_ARRAY_BUFFER, caster_points_, points_, GL_STATIC_DRAW);
+  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, caster_indices_, indices_, GL_STATIC_DRAW);
   gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   gl_.EnableVertexAttribArray(0);
 }
@@ -89,12 +81,12 @@ void DBufferPasses::bind(int unit, GLenum kind, GLuint texture) const {
   gl_.BindTexture(kind, texture);
 }
 
-/// Only faces towards the light's center, where a caster has an inside and is not cut open by the light's
-/// plane: the first surface of such a caster faces the center.
+/// All; only faces towards the light's center, where a caster shows no others.
 void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset) {
   set_target(occluder_program_, target);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, caster_indices_);
   for (const CasterRange& caster : casters_) {
-    if (caster.closed && is_in_front(caster.bounds, axes, offset)) gl_.Enable(GL_CULL_FACE);
+    if (shows_only_fronts(caster, axes, offset)) gl_.Enable(GL_CULL_FACE);
     gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
     const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) *
                                                       sizeof(std::uint32_t));
@@ -103,10 +95,19 @@ void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, co
   }
 }
 
+void DBufferPasses::draw_read_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset,
+                                      const ReceiverGrid& receivers) {
+  set_target(occluder_program_, target);
+  const std::vector<std::uint32_t> read =
+      triangles_before_hidden(points_, indices_, casters_, axes, offset, receivers);
+  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, read_indices_, read, GL_STREAM_DRAW);
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(read.size()), GL_UNSIGNED_INT, nullptr);
+}
+
 /// First surface of all; then the last of those that face the light's center.
 void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes,
-                                   const glm::vec3& offset, const DBufferLayers& layers,
-                                   const DBufferOptions& options) {
+                                   const glm::vec3& offset, const ReceiverGrid& receivers,
+                                   const DBufferLayers& layers, const DBufferOptions& options) {
   occluder_program_.use();
   gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &axes[0][0]);
   gl_.Uniform3f(occluder_program_.uniform("light_offset"), offset.x, offset.y, offset.z);
@@ -126,7 +127,10 @@ void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm
                                 static_cast<int>(i));
     gl_.ClearBufferfv(GL_DEPTH, 0, &nearest);
     gl_.DepthFunc(GL_LESS);
-    draw_casters(targets[i], axes, offset);
+    if (receivers.is_everywhere())
+      draw_casters(targets[i], axes, offset);
+    else
+      draw_read_casters(targets[i], axes, offset, receivers);
     gl_.DepthFunc(GL_GREATER);
   }
   gl_.Disable(GL_CLIP_DISTANCE0);

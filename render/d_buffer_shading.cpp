@@ -57,16 +57,16 @@ void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::
   width_ = surface.width;
   height_ = surface.height;
   positions_ = std::move(positions);
-  std::vector<glm::vec4> normals(surface.size(), glm::vec4(0.0f));
+  normals_.assign(surface.size(), glm::vec4(0.0f));
   for (std::size_t i = 0; i < surface.size(); ++i)
-    if (surface.hit(i)) normals[i] = glm::vec4(glm::vec3(surface.normal[i]), 0.0f);
+    if (surface.hit(i)) normals_[i] = glm::vec4(glm::vec3(surface.normal[i]), 0.0f);
   const auto upload = [&](const std::vector<glm::vec4>& texels) {
     auto texture = image_texture(gl_, GL_RGBA32F, width_, height_);
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, texels.data());
     return texture;
   };
   surface_position_ = upload(positions_);
-  surface_normal_ = upload(normals);
+  surface_normal_ = upload(normals_);
   visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
   first_cut_ = image_texture(gl_, GL_R32F, width_, height_);
@@ -89,6 +89,10 @@ void DBufferShading::trace_center(const DiskLight& light) {
 
 ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
   return {width_, height_, positions_, view.axes, view.offset};
+}
+
+ReceiverGrid DBufferShading::receiver_grid(const DBufferView& view, int size) const {
+  return {receivers(view), normals_, cuts_, view.targets[0], size, view.radius};
 }
 
 DBufferShading::Programs& DBufferShading::programs(const DBufferView& view, const DBufferOptions& options) {

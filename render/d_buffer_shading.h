@@ -10,6 +10,7 @@
 #include "render/d_buffer_layers.h"
 #include "render/d_buffer_targets.h"
 #include "render/d_buffer_tiles.h"
+#include "render/receiver_grid.h"
 
 namespace penumbra::detail {
 
@@ -32,9 +33,8 @@ class DBufferShading {
 
   /// One ray a pixel to the light's center; `cuts` and the visibility where no entry applies come of it.
   void trace_center(const DiskLight& light);
-  /// As CenterRays::first_cut; empty before trace_center.
-  const std::vector<float>& cuts() const { return cuts_; }
-  ImageReceivers receivers(const DBufferView& view) const;
+  /// Who will read the only target, after trace_center.
+  ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
 
   /// Visibility of every pixel. The framebuffer that is bound is used and its attachments are replaced.
   /// `records` is the buffer texture of facets.
@@ -43,6 +43,7 @@ class DBufferShading {
 
  private:
   struct Programs;
+  ImageReceivers receivers(const DBufferView& view) const;
   Programs& programs(const DBufferView& view, const DBufferOptions& options);
   void choose_tiles(const DBufferView& view, const EntryGeometry& geometry, const DBufferOptions& options);
   void test_center_by_depth(const Programs& programs, const DBufferView& view, const DBufferLayers& layers,
@@ -56,7 +57,7 @@ class DBufferShading {
   std::unique_ptr<gl::Object> surface_position_, surface_normal_, first_cut_, visibility_texture_,
       mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
-  std::vector<glm::vec4> positions_;
+  std::vector<glm::vec4> positions_, normals_;
   std::vector<float> cuts_;
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
