@@ -1,5 +1,6 @@
 #include "render/d_buffer_geometry.h"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -11,21 +12,27 @@
 namespace penumbra::detail {
 namespace {
 
+/// Part of one caster's boundary. Several may run at once, each into its own geometry.
 class Appender {
  public:
-  Appender(const EntrySource& source, EntryGeometry& out)
-      : from_(source), out_(out), first_(static_cast<std::uint32_t>(out.records.size() / 4)) {}
+  /// `first` is the number of the caster's first facet.
+  Appender(const EntrySource& source, std::uint32_t first, EntryGeometry& out)
+      : from_(source), out_(out), first_(first) {}
 
-  void run() {
-    for (std::uint32_t i = 0; i < from_.supports.facets.size(); ++i) {
+  void add_facets(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       add_record(from_.supports.facets[i]);
-      if (from_.reach.facets[i] > 0.0f) add_facet(i);
+      if (from_.reach.facets[i] > 0.0f) add_facet(static_cast<std::uint32_t>(i));
     }
-    for (std::size_t i = 0; i < from_.supports.cones.size(); ++i)
+  }
+  void add_cones(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
       if (from_.reach.cones[i] > 0.0f && from_.supports.cones[i].from_facet != kNoFacet)
         add_cone(from_.supports.cones[i], from_.reach.cones[i]);
-    for (const GapFace& gap : from_.gaps)
-      if (from_.reach.facets[gap.facet] > 0.0f) add_gap(gap);
+  }
+  void add_gaps(std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (from_.reach.facets[from_.gaps[i].facet] > 0.0f) add_gap(from_.gaps[i]);
   }
 
  private:
@@ -149,7 +156,29 @@ void sort_by_geometry(EntryGeometry& entries) {
 }
 
 void append_entry_geometry(const EntrySource& source, EntryGeometry& out) {
-  Appender(source, out).run();
+  constexpr std::size_t kPart = 512;
+  const auto parts_of = [](std::size_t count) { return (count + kPart - 1) / kPart; };
+  const std::size_t facets = source.supports.facets.size(), cones = source.supports.cones.size();
+  const std::size_t facet_parts = parts_of(facets), cone_parts = parts_of(cones);
+  const auto first = static_cast<std::uint32_t>(out.records.size() / 4);
+  std::vector<EntryGeometry> parts(facet_parts + cone_parts + parts_of(source.gaps.size()));
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    Appender part(source, first, parts[i]);
+    const auto run = [&](auto add, std::size_t number, std::size_t count) {
+      (part.*add)(number * kPart, std::min(count, (number + 1) * kPart));
+    };
+    if (i < facet_parts)
+      run(&Appender::add_facets, i, facets);
+    else if (i < facet_parts + cone_parts)
+      run(&Appender::add_cones, i - facet_parts, cones);
+    else
+      run(&Appender::add_gaps, i - facet_parts - cone_parts, source.gaps.size());
+  });
+  for (const EntryGeometry& part : parts) {
+    out.records.insert(out.records.end(), part.records.begin(), part.records.end());
+    out.penumbra.insert(out.penumbra.end(), part.penumbra.begin(), part.penumbra.end());
+    out.umbra.insert(out.umbra.end(), part.umbra.begin(), part.umbra.end());
+  }
 }
 
 }  // namespace penumbra::detail

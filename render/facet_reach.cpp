@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -15,9 +14,7 @@ namespace {
 /// that counts.
 constexpr double kClearance = 2.0 * kRayOffset;
 /// A hit this much nearer than the edge hides it; nearer ones are the edge's own faces.
-constexpr double kHidden = 1.0 - 1e-3;
-
-constexpr std::size_t kLanes = 4;
+constexpr float kHidden = 1.0f - 1e-3f;
 
 class Prober {
  public:
@@ -29,26 +26,16 @@ class Prober {
     Vec3 target;   ///< world
     double angle;  ///< of the contact on the rim
   };
-  static constexpr int kProbes = 3;
 
-  /// Greatest reach of the rays from the rim past their targets.
-  float reach(const std::array<Probe, kProbes>& probes, SupportKind kind) const {
-    alignas(16) int wanted[kLanes] = {0, 0, 0, 0};
-    RTCRayHit4 query{};
-    for (std::size_t k = 0; k < kProbes; ++k) {
-      if (!aim(probes[k], kind, k, query)) return std::numeric_limits<float>::infinity();
-      wanted[k] = -1;
-    }
+  /// Reach of the ray from the rim past the target.
+  float reach(const Probe& probe, SupportKind kind) const {
+    RTCRayHit query{};
+    if (!aim(probe, kind, query.ray)) return std::numeric_limits<float>::infinity();
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect4(wanted, rays_.impl().casters, &context, &query);
-    float most = 0.0f;
-    for (std::size_t k = 0; k < kProbes; ++k) {
-      const float along = query.ray.tfar[k];
-      if (static_cast<double>(along) >= kHidden) most = std::max(most, along);
-    }
-    return most;
+    rtcIntersect1(rays_.impl().casters, &context, &query);
+    return query.ray.tfar < kHidden ? 0.0f : query.ray.tfar;
   }
 
   /// Leaves of an edge that crosses the light's plane its part in front.
@@ -59,8 +46,8 @@ class Prober {
   }
 
  private:
-  /// Fills a lane; false where the contact lies on the target's own line along the rim.
-  bool aim(const Probe& probe, SupportKind kind, std::size_t lane, RTCRayHit4& query) const {
+  /// False where the contact lies on the target's own line along the rim.
+  bool aim(const Probe& probe, SupportKind kind, RTCRay& ray) const {
     const RayFrame& frame = rays_.frame();
     const Vec3 out = axes_.u * std::cos(probe.angle) + axes_.v * std::sin(probe.angle);
     const Vec3 contact = center_ + radius_ * out;
@@ -74,13 +61,11 @@ class Prober {
     const Vec3 lit = kind == SupportKind::kPenumbra ? -beyond : beyond;
     const Vec3 from = frame.to_local(contact);
     const Vec3 way = frame.to_local(probe.target) + kClearance * lit - from;
-    RTCRay4& ray = query.ray;
-    ray.org_x[lane] = static_cast<float>(from.x), ray.dir_x[lane] = static_cast<float>(way.x);
-    ray.org_y[lane] = static_cast<float>(from.y), ray.dir_y[lane] = static_cast<float>(way.y);
-    ray.org_z[lane] = static_cast<float>(from.z), ray.dir_z[lane] = static_cast<float>(way.z);
-    ray.tfar[lane] = std::numeric_limits<float>::infinity();
-    ray.mask[lane] = ~0u;
-    query.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+    ray.org_x = static_cast<float>(from.x), ray.dir_x = static_cast<float>(way.x);
+    ray.org_y = static_cast<float>(from.y), ray.dir_y = static_cast<float>(way.y);
+    ray.org_z = static_cast<float>(from.z), ray.dir_z = static_cast<float>(way.z);
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0u;
     return true;
   }
 
@@ -89,6 +74,15 @@ class Prober {
   const Vec3 center_;
   const double radius_;
 };
+
+/// Over three places along an edge or round a sector, 0 to 1; infinity is not surpassed.
+template <class Reach>
+float farthest(const Reach& reach_at) {
+  float most = 0.0f;
+  for (double t : {0.5, 0.1, 0.9})
+    if (std::isfinite(most)) most = std::max(most, reach_at(t));
+  return most;
+}
 
 }  // namespace
 
@@ -104,16 +98,14 @@ FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Su
     const Edge& e = mesh.edges()[index(f.edge)];
     Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
     prober.cut_to_front(a, b);
-    const auto probe = [&](double t) { return Prober::Probe{a + t * (b - a), f.rim_angle}; };
-    out.facets[i] = prober.reach({probe(0.5), probe(0.1), probe(0.9)}, f.kind);
+    out.facets[i] = farthest([&](double t) { return prober.reach({a + t * (b - a), f.rim_angle}, f.kind); });
   };
   const auto probe_cone = [&](std::size_t i) {
     if (!read.cones[i]) return;
     const ConeSector& c = supports.cones[i];
-    const auto probe = [&](double t) {
-      return Prober::Probe{mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)};
-    };
-    out.cones[i] = prober.reach({probe(0.5), probe(0.1), probe(0.9)}, c.kind);
+    out.cones[i] = farthest([&](double t) {
+      return prober.reach({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
+    });
   };
   rays.impl().arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe_facet);
