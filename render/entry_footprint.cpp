@@ -13,6 +13,8 @@ Uvw project(const Vec3& p) {
   return {glm::dvec2(p.x, p.y) / p.z, 1.0 / p.z};
 }
 
+constexpr float kUnlimited = std::numeric_limits<float>::infinity();
+
 }  // namespace
 
 LightSpace::LightSpace(const DiskLight& light, double scale_factor)
@@ -124,28 +126,31 @@ bool EntryFootprints::cut(Vec3& a, Vec3& b) const {
   return true;
 }
 
-ReadEntries find_read_entries(const EntryFootprints& footprints, const Supports& supports,
-                              const std::vector<GapFace>& gaps, const ReceiverGrid& receivers) {
-  constexpr float kUnlimited = std::numeric_limits<float>::infinity();
-  ReadEntries read{std::vector<char>(supports.facets.size(), 1), std::vector<char>(supports.cones.size(), 1)};
+std::vector<char> find_read_facets(const EntryFootprints& footprints, const Supports& supports,
+                                   const std::vector<GapFace>& gaps, const ReceiverGrid& receivers) {
+  std::vector<char> read(supports.facets.size(), 1);
   if (receivers.is_everywhere()) return read;
-  const auto below = [&](SupportKind kind, const UvBounds& bounds, double nearest) {
-    return receivers.least_weight(kind, bounds) < nearest;
-  };
-  tbb::parallel_for(std::size_t{0}, supports.facets.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, read.size(), [&](std::size_t i) {
     const auto f = footprints.facet(static_cast<std::uint32_t>(i), kUnlimited, 0.0);
-    read.facets[i] =
-        f && below(supports.facets[i].kind, uv_bounds_of(f->corners), std::max(f->from_weight, f->to_weight));
-  });
-  tbb::parallel_for(std::size_t{0}, supports.cones.size(), [&](std::size_t i) {
-    const auto c = footprints.cone(supports.cones[i], kUnlimited, 0.0);
-    read.cones[i] = c && below(supports.cones[i].kind, uv_bounds_of(*c), c->apex.w);
+    const double nearest = f ? std::max(f->from_weight, f->to_weight) : 0.0;
+    read[i] = f && receivers.least_weight(supports.facets[i].kind, uv_bounds_of(f->corners)) < nearest;
   });
   for (const GapFace& gap : gaps) {  // drawn where its facet is in sight
     const auto g = footprints.gap(gap);
-    if (g && below(SupportKind::kUmbra, uv_bounds_of(*g), std::max({(*g)[0].w, (*g)[1].w, (*g)[2].w})))
-      read.facets[gap.facet] = 1;
+    const double nearest = g ? std::max({(*g)[0].w, (*g)[1].w, (*g)[2].w}) : 0.0;
+    if (g && receivers.least_weight(SupportKind::kUmbra, uv_bounds_of(*g)) < nearest) read[gap.facet] = 1;
   }
+  return read;
+}
+
+std::vector<char> find_read_cones(const EntryFootprints& footprints, const Supports& supports,
+                                  const ReceiverGrid& receivers) {
+  std::vector<char> read(supports.cones.size(), 1);
+  if (receivers.is_everywhere()) return read;
+  tbb::parallel_for(std::size_t{0}, read.size(), [&](std::size_t i) {
+    const auto c = footprints.cone(supports.cones[i], kUnlimited, 0.0);
+    read[i] = c && receivers.least_weight(supports.cones[i].kind, uv_bounds_of(*c)) < c->apex.w;
+  });
   return read;
 }
 

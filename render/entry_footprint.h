@@ -94,8 +94,12 @@ inline UvBounds uv_bounds_of(const EntryFootprints::Cone& cone) {
   return {cone.apex.uv - cone.radius, cone.apex.uv + cone.radius};
 }
 
-/// What some receiver may read, if nothing cut it short. Cost O(facets + cones + gaps), on all cores.
-ReadEntries find_read_entries(const EntryFootprints& footprints, const Supports& supports,
-                              const std::vector<GapFace>& gaps, const ReceiverGrid& receivers);
+/// Which facets some receiver may read, or a gap face beside them, if nothing cut it short: 0 or 1 each. Cost
+/// O(facets + gaps), on all cores.
+std::vector<char> find_read_facets(const EntryFootprints& footprints, const Supports& supports,
+                                   const std::vector<GapFace>& gaps, const ReceiverGrid& receivers);
+/// The same for cone sectors.
+std::vector<char> find_read_cones(const EntryFootprints& footprints, const Supports& supports,
+                                  const ReceiverGrid& receivers);
 
 }  // namespace penumbra::detail

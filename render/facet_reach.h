@@ -7,6 +7,7 @@
 // neither; its section 6.2 names the artefacts.)
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "render/ray_scene.h"
@@ -21,13 +22,12 @@ struct FacetReach {
   std::vector<float> cones;   ///< one per cone sector
 };
 
-/// Which facets and cone sectors of a caster some receiver may read: 0 or 1 each.
-struct ReadEntries {
-  std::vector<char> facets, cones;
-};
-
-/// Those that are not read count as hidden. Cost O((facets + cones) log faces), on all cores.
-FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
-                      const ReadEntries& read, const RayScene& rays);
+/// Fills `facets`. Those that no receiver reads (0 in `read`, one number each) count as hidden. Cost
+/// O(facets · log faces), on all cores.
+void find_facet_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                      std::span<const char> read, const RayScene& rays, FacetReach& out);
+/// Fills `cones` in the same way.
+void find_cone_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                     std::span<const char> read, const RayScene& rays, FacetReach& out);
 
 }  // namespace penumbra::detail
