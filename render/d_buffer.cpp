@@ -199,15 +199,15 @@ void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClo
     b.gaps = find_gap_faces(*c.mesh, light, b.classes, b.supports);
   });
   stage("reach", [&](const Caster& c, Boundary& b) {
-    const auto read = detail::find_read_facets(plan.footprints(c, b), b.supports, b.gaps, plan.receivers);
-    detail::find_facet_reach(*c.mesh, light, b.supports, read, rays, b.reach);
+    const auto probes = detail::count_facet_probes(plan.footprints(c, b), b.supports, b.gaps, plan.receivers);
+    detail::find_facet_reach(*c.mesh, light, b.supports, probes, rays, b.reach);
   });
   stage("corners", [&](const Caster& c, Boundary& b) {
     std::vector<char> in_sight(b.reach.facets.size());
     for (std::size_t i = 0; i < in_sight.size(); ++i) in_sight[i] = b.reach.facets[i] > 0.0f;
     link_support_facets(*c.mesh, c.rings, light, in_sight, b.supports);
-    const auto read = detail::find_read_cones(plan.footprints(c, b), b.supports, plan.receivers);
-    detail::find_cone_reach(*c.mesh, light, b.supports, read, rays, b.reach);
+    const auto probes = detail::count_cone_probes(plan.footprints(c, b), b.supports, plan.receivers);
+    detail::find_cone_reach(*c.mesh, light, b.supports, probes, rays, b.reach);
   });
 }
 
