@@ -281,7 +281,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   clock.finish("facets");
   frame.counts = count(plan);
   draw(plan, options, clock);
-  frame.visibility = shading.shade(plan.view(), plan.geometry, *layers, passes.records(), options);
+  frame.visibility = shading.shade(light, plan.view(), plan.geometry, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
   frame.counts["buffer_bytes"] = layers->bytes();

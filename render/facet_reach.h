@@ -1,10 +1,10 @@
 // How far each facet of a caster's shadow boundary really reaches.
 //
 // A supporting plane is a local property: the light that grazes an edge may be cut off before it gets there,
-// or by another part of the scene soon after. Rays from the point of the disk where the plane touches it, past
-// the edge, tell both. What is out of sight is not drawn, and what is cut short ends there: less to rasterise,
-// and no exit from an umbra that something else still darkens. (The 2004 paper has neither; its section 6.2
-// names the artefacts.)
+// or by another part of the scene soon after. Rays from the point of the disk where the plane touches it,
+// past the edge, tell both. What is out of sight is not drawn, and what is cut short ends there: less to
+// rasterise, and no exit from an umbra that something else still darkens. (The 2004 paper has neither; its
+// section 6.2 names the artefacts.)
 #pragma once
 
 #include <cstdint>
