@@ -10,6 +10,7 @@
 #include "render/center_rays.h"
 #include "render/d_buffer_passes.h"
 #include "render/d_buffer_tiles.h"
+#include "render/gl/state_scope.h"
 #include "render/ray_scene.h"
 #include "volumes/volumes.h"
 
@@ -463,6 +464,7 @@ std::span<const NamedValue<Conflict>> conflicts() {
 
 DBuffer::DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays) {
   context.make_current();
+  const gl::StateScope scope(context.functions());
   impl_ = std::make_unique<Impl>(context, scene, rays);
 }
 
@@ -472,6 +474,7 @@ DBuffer::~DBuffer() {
 
 void DBuffer::set_surface(const SurfaceBuffer& surface) {
   impl_->context.make_current();
+  const gl::StateScope scope(impl_->gl);
   impl_->set_surface(surface);
 }
 
@@ -485,6 +488,7 @@ DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& optio
     throw UsageError("two D-buffer entries need --dbuffer edge and --conflict nearest");
   if (impl_->width == 0) throw UsageError("DBuffer::set_surface has to come before render");
   impl_->context.make_current();
+  const gl::StateScope scope(impl_->gl);
   return impl_->render(light, options);
 }
 

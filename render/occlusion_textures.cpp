@@ -1,21 +1,25 @@
 #include "render/occlusion_textures.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <string>
 
 #include "mesh/error.h"
+#include "render/gl/state_scope.h"
 #include "render/occlusion_lookup.h"
 #include "render/ray_scene.h"
 #include "render/shading.h"
 
 namespace penumbra {
 namespace {
+
+constexpr int kTile = 16;  // pixels a side
+static_assert(kTile * kTile <= detail::SliceReceivers::kMost);
 
 void require_valid(const OcclusionOptions& o) {
   if (o.slices < 4 || o.slices > 16 || o.slices % 4 != 0)
@@ -109,16 +113,30 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Sur
                                       const detail::OcclusionLookup* lookup,
                                       std::vector<float>& visibility) const {
   visibility.assign(surface.size(), 1.0f);
-  const auto one = [&](std::size_t i) {
-    if (!surface.hit(i)) return;
-    const Vec3 p = space.to_light(surface.position[i]);
-    const double above = fraction_above_horizon(space.light, surface.position[i], surface.normal[i]);
-    visibility[i] =
-        static_cast<float>(lookup && p.z > 0.0 && above > 0.0 ? lookup->visibility(p, above) : above);
+  using detail::SliceReceivers;
+  // Neighbours in both directions look at the same texels.
+  const auto tile = [&](int left, int top) {
+    SliceReceivers receivers;
+    std::array<std::size_t, SliceReceivers::kMost> pixels;
+    for (int y = top; y < std::min(top + kTile, surface.height); ++y)
+      for (int x = left; x < std::min(left + kTile, surface.width); ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
+                              static_cast<std::size_t>(x);
+        if (!surface.hit(i)) continue;
+        const Vec3 p = space.to_light(surface.position[i]);
+        const double above = fraction_above_horizon(space.light, surface.position[i], surface.normal[i]);
+        visibility[i] = static_cast<float>(above);
+        if (!lookup || !(p.z > 0.0) || !(above > 0.0)) continue;
+        pixels[receivers.count] = i;
+        receivers.add(p, above);
+      }
+    if (lookup) lookup->look_up(receivers);
+    for (std::size_t k = 0; k < receivers.count; ++k)
+      visibility[pixels[k]] = static_cast<float>(receivers.visibility[k]);
   };
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 2048), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) one(i);
+    tbb::parallel_for(0, (surface.height + kTile - 1) / kTile, [&](int row) {
+      for (int left = 0; left < surface.width; left += kTile) tile(left, row * kTile);
     });
   });
 }
@@ -203,6 +221,7 @@ std::span<const NamedValue<SliceFaces>> slice_faces() {
 
 OcclusionTextures::OcclusionTextures(gl::Context& context, const Scene& scene, int threads) {
   context.make_current();
+  const gl::StateScope scope(context.functions());
   impl_ = std::make_unique<Impl>(context, scene, threads);
 }
 
@@ -213,6 +232,7 @@ OcclusionTextures::~OcclusionTextures() {
 OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options) {
   require_valid(options);
   impl_->context.make_current();
+  const gl::StateScope scope(impl_->context.functions());
   return impl_->render(surface, options);
 }
 
