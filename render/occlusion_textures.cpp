@@ -45,6 +45,8 @@ struct OcclusionTextures::Impl {
     bool nothing_casts = false;
   };
   Plan plan(const detail::SliceSpace& space, const OcclusionOptions& options) const;
+  detail::DepthRange range_to_slice(const detail::DepthRange& of_casters, const detail::SliceSpace& space,
+                                    const OcclusionOptions& options) const;
   void look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
                const detail::OcclusionLookup* lookup, std::vector<float>& visibility) const;
 
@@ -83,6 +85,20 @@ OcclusionTextures::Impl::Impl(gl::Context& context_, const Scene& scene_, int th
   gl::require_no_error(context.functions(), "uploading casters");
 }
 
+detail::DepthRange OcclusionTextures::Impl::range_to_slice(const detail::DepthRange& of_casters,
+                                                           const detail::SliceSpace& space,
+                                                           const OcclusionOptions& options) const {
+  if (options.range == SliceRange::kCasters) return of_casters;
+  detail::DepthRange all = of_casters, others;
+  for (const SceneObject& object : scene.objects)
+    for (const Vec3& p : object.mesh.positions())
+      (object.casts ? all : others).add(std::max(space.to_light(p).z, detail::kNearSlice));
+  all.add(others);
+  const double slice = (all.far - all.near) / options.slices;
+  const bool contact = others.near < of_casters.far + slice;
+  return options.range == SliceRange::kAuto && contact ? of_casters : all;
+}
+
 OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceSpace& space,
                                                             const OcclusionOptions& options) const {
   Plan plan;
@@ -93,11 +109,7 @@ OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceS
   }
   plan.nothing_casts = depth.empty();
   if (plan.nothing_casts) return plan;
-  if (options.range == SliceRange::kScene)
-    for (const SceneObject& object : scene.objects)
-      for (const Vec3& p : object.mesh.positions())
-        depth.add(std::max(space.to_light(p).z, detail::kNearSlice));
-  plan.frustum = detail::fit_frustum(plan.extents, depth, space, options);
+  plan.frustum = detail::fit_frustum(plan.extents, range_to_slice(depth, space, options), space, options);
   for (std::size_t i = 0; i < casters.size(); ++i) {
     const bool leaks = options.thin_fix == ThinFix::kAuto &&
                        detail::may_leak(thickness[i], plan.extents[i], space, plan.frustum);
@@ -202,8 +214,8 @@ std::span<const NamedValue<ThinFix>> thin_fixes() {
 }
 
 std::span<const NamedValue<SliceRange>> slice_ranges() {
-  static constexpr NamedValue<SliceRange> kNames[] = {{SliceRange::kScene, "scene"},
-                                                      {SliceRange::kCasters, "casters"}};
+  static constexpr NamedValue<SliceRange> kNames[] = {
+      {SliceRange::kScene, "scene"}, {SliceRange::kCasters, "casters"}, {SliceRange::kAuto, "auto"}};
   return kNames;
 }
 

@@ -47,6 +47,8 @@ enum class ThinFix { kOff, kOn, kAuto };
 enum class SliceRange {
   kScene,    ///< from the nearest to the farthest point of all objects
   kCasters,  ///< of the objects that cast
+  kAuto,     ///< kCasters where something that does not cast begins less than one slice of the scene's range
+             ///< behind the casters' far end: contact shadows need the finer slices; else kScene
 };
 enum class SliceCoverage {
   kBinary,  ///< a texel is covered or not, by its center
@@ -74,7 +76,7 @@ struct OcclusionOptions {
   /// that are open, or whose mean thickness 2·volume/area is below what a line of sight to the light's border
   /// moves sideways within one slice.
   ThinFix thin_fix = ThinFix::kOff;
-  SliceRange range = SliceRange::kScene;
+  SliceRange range = SliceRange::kAuto;
   SliceCoverage coverage = SliceCoverage::kBinary;
   SliceFaces faces = SliceFaces::kFront;
   /// Distance of the center of projection behind the light, scene units, > 0; infinity is orthographic;
