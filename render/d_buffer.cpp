@@ -34,7 +34,7 @@ struct DBuffer::Impl {
   Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_);
 
   void set_surface(const SurfaceBuffer& surface);
-  DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
+  DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress);
 
   /// Where one caster's shadow is bounded.
   struct Boundary {
@@ -416,7 +416,8 @@ std::vector<float> DBuffer::Impl::shade(const Plan& plan, const DBufferOptions& 
   return out;
 }
 
-DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options) {
+DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options,
+                                   const Progress& progress) {
   DBufferFrame frame;
   StageClock clock;
   const detail::LightSpace space(light, scale);
@@ -425,10 +426,13 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   find_geometry(options, plan);
   clock.finish("facets");
   frame.counts = count(plan);
+  report(progress, 0.2);
   draw(plan, options, clock);
+  report(progress, 0.5);
   choose_tiles(plan, options);
   find_first_cut(plan, light, options);
   clock.finish("center");
+  report(progress, 0.7);
   frame.visibility = shade(plan, options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
@@ -478,7 +482,8 @@ void DBuffer::set_surface(const SurfaceBuffer& surface) {
   impl_->set_surface(surface);
 }
 
-DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& options) {
+DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& options,
+                             const Progress& progress) {
   if (options.size < 16 || options.size > 8192)
     throw UsageError("D-buffer size must lie in 16 to 8192 texels, not " + std::to_string(options.size));
   if (options.entries < 1 || options.entries > 2)
@@ -489,7 +494,7 @@ DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& optio
   if (impl_->width == 0) throw UsageError("DBuffer::set_surface has to come before render");
   impl_->context.make_current();
   const gl::StateScope scope(impl_->gl);
-  return impl_->render(light, options);
+  return impl_->render(light, options, progress);
 }
 
 }  // namespace penumbra

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/progress.h"
 #include "render/gl/context.h"
 #include "render/named_value.h"
 #include "render/scene.h"
@@ -70,8 +71,9 @@ class DBuffer {
   void set_surface(const SurfaceBuffer& surface);
   /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.
   /// Throws UsageError for a size or entries outside their range and before set_surface, SystemError where
-  /// OpenGL fails. Cost O(faces + band + texels + pixels), and one or two rays a pixel with CenterTest::kRay.
-  DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
+  /// OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), and one or two rays a pixel with
+  /// CenterTest::kRay.
+  DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
 
  private:
   struct Impl;

@@ -18,7 +18,8 @@
 namespace penumbra {
 namespace {
 
-constexpr int kTile = 16;  // pixels a side
+constexpr int kTile = 16;        // pixels a side
+constexpr int kRowsAtOnce = 12;  // of tiles, before somebody is asked whether to go on
 static_assert(kTile * kTile <= detail::SliceReceivers::kMost);
 
 void require_valid(const OcclusionOptions& o) {
@@ -35,7 +36,8 @@ void require_valid(const OcclusionOptions& o) {
 
 struct OcclusionTextures::Impl {
   Impl(gl::Context& context_, const Scene& scene_, int threads);
-  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options);
+  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                        const Progress& progress);
 
   /// What one frame knows before anything is drawn.
   struct Plan {
@@ -48,7 +50,8 @@ struct OcclusionTextures::Impl {
   detail::DepthRange range_to_slice(const detail::DepthRange& of_casters, const detail::SliceSpace& space,
                                     const OcclusionOptions& options) const;
   void look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
-               const detail::OcclusionLookup* lookup, std::vector<float>& visibility) const;
+               const detail::OcclusionLookup* lookup, const Progress& progress,
+               std::vector<float>& visibility) const;
 
   gl::Context& context;
   const Scene& scene;
@@ -122,7 +125,7 @@ OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceS
 
 /// `lookup`: none where nothing casts.
 void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
-                                      const detail::OcclusionLookup* lookup,
+                                      const detail::OcclusionLookup* lookup, const Progress& progress,
                                       std::vector<float>& visibility) const {
   visibility.assign(surface.size(), 1.0f);
   using detail::SliceReceivers;
@@ -146,15 +149,19 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Sur
     for (std::size_t k = 0; k < receivers.count; ++k)
       visibility[pixels[k]] = static_cast<float>(receivers.visibility[k]);
   };
-  arena.execute([&] {
-    tbb::parallel_for(0, (surface.height + kTile - 1) / kTile, [&](int row) {
-      for (int left = 0; left < surface.width; left += kTile) tile(left, row * kTile);
+  const int rows = (surface.height + kTile - 1) / kTile;
+  for (int first = 0; first < rows; first += kRowsAtOnce) {
+    report(progress, static_cast<double>(first) / rows);
+    arena.execute([&] {
+      tbb::parallel_for(first, std::min(rows, first + kRowsAtOnce), [&](int row) {
+        for (int left = 0; left < surface.width; left += kTile) tile(left, row * kTile);
+      });
     });
-  });
+  }
 }
 
-OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
-                                               const OcclusionOptions& options) {
+OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                                               const Progress& progress) {
   OcclusionFrame frame;
   StageClock clock;
   const detail::SliceSpace space(area_light(scene), scale);
@@ -167,6 +174,7 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
     const glm::mat3 axes(glm::transpose(glm::dmat3(f.u, f.v, f.w)));
     const auto slices =
         masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
+    report(progress, 0.0);
     arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
     clock.finish("prefilter");
     const auto used = std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); });
@@ -180,7 +188,7 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
                                      : nlohmann::json("orthographic");
     frame.counts["texture_bytes"] = lookup->bytes();
   }
-  look_up(space, surface, lookup.get(), frame.visibility);
+  look_up(space, surface, lookup.get(), progress, frame.visibility);
   clock.finish("visibility");
   gl::require_no_error(context.functions(), "rendering occlusion textures");
   frame.stages = clock.stages();
@@ -241,11 +249,12 @@ OcclusionTextures::~OcclusionTextures() {
   if (impl_) impl_->context.make_current();
 }
 
-OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options) {
+OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                                         const Progress& progress) {
   require_valid(options);
   impl_->context.make_current();
   const gl::StateScope scope(impl_->context.functions());
-  return impl_->render(surface, options);
+  return impl_->render(surface, options, progress);
 }
 
 }  // namespace penumbra

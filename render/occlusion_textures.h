@@ -21,6 +21,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/progress.h"
 #include "render/gl/context.h"
 #include "render/named_value.h"
 #include "render/scene.h"
@@ -97,8 +98,9 @@ class OcclusionTextures {
   ~OcclusionTextures();
   /// Everything is made anew for the scene's light, disk or rectangle: slices, prefilters, lookups. The light
   /// must have an extent. Nothing behind its plane casts, and what is closer to it than 1/8192 of the scene
-  /// is cut off. Throws UsageError for options outside their range.
-  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options);
+  /// is cut off. Throws UsageError for options outside their range, Cancelled.
+  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                        const Progress& progress = {});
 
  private:
   struct Impl;

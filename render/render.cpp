@@ -157,7 +157,8 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
   }
   d_buffer->set_surface(surface);
   clock.finish("upload_surface");
-  DBufferFrame frame = d_buffer->render(scene.light, options.d_buffer);
+  report(options.progress, 0.0);
+  DBufferFrame frame = d_buffer->render(scene.light, options.d_buffer, options.progress);
   for (const StageTime& s : frame.stages) clock.add(s);
   stats["renderer"] = context->renderer();
   stats["counts"] = frame.counts;
@@ -202,7 +203,7 @@ std::vector<float> Renderer::State::by_occlusion_textures(const RenderOptions& o
     clock.restart();  // one-time set-up, not a stage
   }
   const OcclusionOptions& o = options.occlusion;
-  OcclusionFrame frame = occlusion->render(surface, o);
+  OcclusionFrame frame = occlusion->render(surface, o, options.progress);
   for (const StageTime& s : frame.stages) clock.add(s);
   stats["renderer"] = context->renderer();
   stats["counts"] = frame.counts;
@@ -266,7 +267,9 @@ RenderResult Renderer::render_frame(const RenderOptions& options) {
                {"counts", nlohmann::json::object()}};
   out.surface = make_surface_buffer(state_->scene, state_->rays, options.width, options.height);
   clock.finish("surface_buffer");
+  report(options.progress, 0.0);
   const Seen seen = state_->see(options, out.surface, clock, out.stats);
+  report(options.progress, 1.0);
   out.image = shade(state_->scene, out.surface, seen.visibility, options.threads, seen.region);
   clock.finish("shading");
   out.stages = clock.stages();

@@ -40,7 +40,7 @@ struct RenderOptions {
   DBufferOptions d_buffer;
   SilhouetteOptions silhouette;
   OcclusionOptions occlusion;
-  Progress progress;
+  Progress progress;  ///< asked between stages and in the long ones
 };
 
 struct RenderResult {

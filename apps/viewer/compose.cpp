@@ -1,11 +1,41 @@
 #include "apps/viewer/compose.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "apps/picture.h"
 
 namespace penumbra::viewer {
 
-Pixels picture_of(const Side& side, double exposure) {
+namespace {
+
+using Color = std::array<unsigned char, 3>;
+
+Color region_color(float region) {
+  if (region < 0.0f) return {120, 120, 120};
+  return region == 0.0f ? Color{255, 230, 120} : region == 1.0f ? Color{235, 130, 50} : Color{60, 80, 190};
+}
+
+Color visibility_color(float visibility) {
+  const auto grey = static_cast<unsigned char>(std::lround(255.0f * std::clamp(visibility, 0.0f, 1.0f)));
+  return {grey, grey, grey};
+}
+
+}  // namespace
+
+Pixels picture_of(const Side& side, Shown shown, double exposure) {
   const Image& image = side.result->image;
+  if (shown != Shown::kPicture) {
+    const std::vector<float>& values = image.at(shown == Shown::kRegion ? "region" : "visibility");
+    Pixels pixels{image.width, image.height, std::vector<unsigned char>(3 * values.size(), 230)};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!side.result->surface.hit(i)) continue;
+      const Color color = shown == Shown::kRegion ? region_color(values[i]) : visibility_color(values[i]);
+      std::copy(color.begin(), color.end(), pixels.rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
+    }
+    return pixels;
+  }
   return {image.width, image.height, encode_srgb(image, exposure)};
 }
 

@@ -44,14 +44,17 @@ void draw_scale(ImDrawList& list, float bottom, double scale) {
 }  // namespace
 
 void PictureView::update(const State& state, std::shared_ptr<const Frame> frame) {
-  if (frame == frame_ && exposure_ == state.exposure && scale_ == state.difference_scale) return;
+  if (frame == frame_ && exposure_ == state.exposure && scale_ == state.difference_scale &&
+      shown_ == state.shown)
+    return;
   frame_ = std::move(frame);
   exposure_ = state.exposure;
   scale_ = state.difference_scale;
+  shown_ = state.shown;
   if (!frame_ || frame_->sides.empty()) return;
-  left_.upload(picture_of(frame_->sides.front(), exposure_));
+  left_.upload(picture_of(frame_->sides.front(), shown_, exposure_));
   if (frame_->sides.size() < 2) return;
-  right_.upload(picture_of(frame_->sides.back(), exposure_));
+  right_.upload(picture_of(frame_->sides.back(), shown_, exposure_));
   difference_.upload(difference_of(frame_->sides.front(), frame_->sides.back(), scale_));
 }
 

@@ -25,6 +25,7 @@ class PictureView {
   PictureTexture left_, right_, difference_;
   std::shared_ptr<const Frame> frame_;
   double exposure_ = 0.0, scale_ = 0.0;
+  Shown shown_ = Shown::kPicture;
 };
 
 }  // namespace penumbra::viewer

@@ -39,6 +39,7 @@ class Viewer {
   void open(const std::filesystem::path& path);
   void open_neighbour(int step);
   void take_screenshot_when_due();
+  bool too_soon() const;
   bool settled() const { return wishes_.settled(view_.frame()); }
   void draw_help();
   void draw_overlays();
@@ -59,7 +60,8 @@ class Viewer {
   Costs costs_;
   StatusFile status_;
   bool show_panel_, show_help_ = false;
-  int frames_ = 0;          ///< drawn so far
+  int frames_ = 0;                                 ///< drawn so far
+  std::chrono::steady_clock::time_point drawn_{};  ///< when the last was
   int frames_to_draw_ = 3;  ///< ImGui needs some after each event until everything is in place
   std::size_t file_ = 0;
 };
@@ -86,7 +88,9 @@ int Viewer::run() {
     for (const std::string& dropped : window_.take_dropped()) open(dropped);
     if (window_.minimised()) continue;
     const auto frame = worker_.latest();
-    if (frame && frame.get() != view_.frame()) {
+    const bool news = frame && frame.get() != view_.frame();
+    if (!news && too_soon()) continue;
+    if (news) {
       costs_.add(*frame);
       frames_to_draw_ = std::max(frames_to_draw_, 1);
     }
@@ -94,6 +98,7 @@ int Viewer::run() {
     window_.begin_frame();
     draw();
     window_.draw_frame();
+    drawn_ = std::chrono::steady_clock::now();
     ++frames_;
     take_screenshot_when_due();
     window_.show_frame();
@@ -113,6 +118,13 @@ void Viewer::wait() {
                : options_.screenshot.empty() ? -1.0
                                              : 0.03);
   frames_to_draw_ = 2;
+}
+
+// While a draft is under way the window waits for it, but not for long: without a GPU drawing the window
+// takes as much of the processor as a draft does.
+bool Viewer::too_soon() const {
+  constexpr auto kLongestWait = std::chrono::milliseconds(45);
+  return wishes_.restless() && std::chrono::steady_clock::now() - drawn_ < kLongestWait;
 }
 
 void Viewer::fit_picture() {
@@ -150,7 +162,9 @@ void Viewer::draw() {
                   .holding = holding,
                   .frame = view_.frame(),
                   .places = panel_.places(),
-                  .message = message_});
+                  .message = message_,
+                  .minimised = window_.minimised(),
+                  .per_second = costs_.per_second()});
 }
 
 void Viewer::keys() {

@@ -1,6 +1,7 @@
 // One Renderer through every method: what was drawn before changes no bit.
 #include <gtest/gtest.h>
 
+#include "mesh/error.h"
 #include "render/gl/context.h"
 #include "render/gl/functions.h"
 #include "render/render.h"
@@ -61,6 +62,29 @@ TEST(Renderer, MethodsThatShareItDoNotChangeEachOther) {
       EXPECT_EQ(shared.render_frame(all[b].options).image.channels, fresh[b])
           << all[b].name << " after " << all[a].name;
     }
+}
+
+// Stopped wherever it asks, a frame leaves nothing behind that a later one could see.
+TEST(Renderer, FramesCanBeCancelledAnywhere) {
+  const Scene scene = testing::data_scene("torus-medium");
+  for (Choice each : choices()) {
+    const auto fresh = render(scene, each.options).image.channels;
+    Renderer renderer(scene, each.options);
+    int asked = 0, stopped = 0;
+    for (int stop_at = 1; stop_at <= asked + 1 && stop_at < 40; ++stop_at) {
+      int calls = 0;
+      each.options.progress = [&](double) { return ++calls < stop_at; };
+      try {
+        renderer.render_frame(each.options);
+      } catch (const Cancelled&) {
+        ++stopped;
+      }
+      asked = std::max(asked, calls);
+      each.options.progress = nullptr;
+      EXPECT_EQ(renderer.render_frame(each.options).image.channels, fresh) << each.name << ", " << stop_at;
+    }
+    EXPECT_GE(stopped, 2) << each.name;
+  }
 }
 
 /// What the methods change of a context, by OpenGL's names.
