@@ -15,6 +15,7 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kLanes = 16;
+constexpr int kBlock = 4;  // pixels a side that share a packet
 /// What a cut reads as that only the ray towards the light finds: the two directions round differently.
 constexpr float kAlmostThere = 1.0f - 0x1p-20f;
 
@@ -94,15 +95,20 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
   for (auto* list : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) list->assign(padded, 0.0f);
   pixel_.reserve(count);
-  for (std::uint32_t i = 0; i < surface.size(); ++i) {
-    if (!surface.hit(i)) continue;
+  const auto add = [&](std::uint32_t i) {
+    if (!surface.hit(i)) return;
     const Vec3& n = surface.normal[i];
     const glm::vec3 p(rays.frame().to_local(surface.position[i]) + kRayOffset * n);
     const std::size_t k = pixel_.size();
     x_[k] = p.x, y_[k] = p.y, z_[k] = p.z;
     nx_[k] = static_cast<float>(n.x), ny_[k] = static_cast<float>(n.y), nz_[k] = static_cast<float>(n.z);
     pixel_.push_back(i);
-  }
+  };
+  for (int top = 0; top < surface.height; top += kBlock)
+    for (int left = 0; left < surface.width; left += kBlock)
+      for (int y = top; y < std::min(top + kBlock, surface.height); ++y)
+        for (int x = left; x < std::min(left + kBlock, surface.width); ++x)
+          add(static_cast<std::uint32_t>(y * surface.width + x));
 }
 
 std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {

@@ -30,7 +30,7 @@ class CenterRays {
  private:
   const RayScene& rays_;
   std::size_t pixels_;                ///< of the surface buffer
-  std::vector<std::uint32_t> pixel_;  ///< that see a surface, in order
+  std::vector<std::uint32_t> pixel_;  ///< that see a surface, in blocks
   std::vector<float> x_, y_, z_, nx_, ny_,
       nz_;  ///< ray origins and normals, local frame, padded to whole packets
 };

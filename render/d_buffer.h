@@ -21,6 +21,7 @@
 #include "render/scene.h"
 #include "render/stage_clock.h"
 #include "render/surface_buffer.h"
+#include "render/texture_picture.h"
 
 namespace penumbra {
 
@@ -74,6 +75,9 @@ class DBuffer {
   /// OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), and one or two rays a pixel with
   /// CenterTest::kRay.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
+  /// What the last frame left in the textures of the first target, by number, one grey a number: the first
+  /// surface, penumbra entries, umbra entries before and behind the last surface; none that are empty.
+  std::vector<TexturePicture> textures() const;
 
  private:
   struct Impl;

@@ -21,8 +21,13 @@ struct FacetReach {
   std::vector<float> cones;   ///< one per cone sector
 };
 
-/// Cost O((facets + cones) log faces), on all cores.
+/// Which facets and cone sectors of a caster some receiver may read: 0 or 1 each.
+struct ReadEntries {
+  std::vector<char> facets, cones;
+};
+
+/// Those that are not read count as hidden. Cost O((facets + cones) log faces), on all cores.
 FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
-                      const RayScene& rays);
+                      const ReadEntries& read, const RayScene& rays);
 
 }  // namespace penumbra::detail

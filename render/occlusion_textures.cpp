@@ -172,7 +172,7 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, con
   if (!plan.nothing_casts) {
     const LightFrame& f = space.light.axes;
     const glm::mat3 axes(glm::transpose(glm::dmat3(f.u, f.v, f.w)));
-    const auto slices =
+    auto slices =
         masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
     report(progress, 0.0);
     arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
@@ -187,6 +187,10 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, con
                                      ? nlohmann::json(1.0 / (plan.frustum.narrowing * space.scale))
                                      : nlohmann::json("orthographic");
     frame.counts["texture_bytes"] = lookup->bytes();
+    for (std::size_t i = 0; i < slices.size(); ++i)
+      if (!slices[i].empty())
+        frame.textures.push_back(
+            {"slice " + std::to_string(i + 1), options.texture_size, std::move(slices[i])});
   }
   look_up(space, surface, lookup.get(), progress, frame.visibility);
   clock.finish("visibility");

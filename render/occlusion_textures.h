@@ -27,6 +27,7 @@
 #include "render/scene.h"
 #include "render/stage_clock.h"
 #include "render/surface_buffer.h"
+#include "render/texture_picture.h"
 
 namespace penumbra {
 
@@ -88,7 +89,8 @@ struct OcclusionOptions {
 struct OcclusionFrame {
   std::vector<float> visibility;  ///< one per pixel of the surface; 1 where nothing is seen
   std::vector<StageTime> stages;
-  nlohmann::json counts;  ///< slices used, frustum, bytes
+  nlohmann::json counts;                 ///< slices used, frustum, bytes
+  std::vector<TexturePicture> textures;  ///< coverage of each slice in use, from the light on
 };
 
 class OcclusionTextures {

@@ -7,11 +7,13 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <numbers>
 #include <optional>
 #include <tuple>
@@ -28,6 +30,10 @@ double wrap(double angle) {
   return turned < 0.0 ? turned + 2.0 * kPi : turned;
 }
 
+/// Rounding in `SideOfPlane`, so that coplanar neighbours count as lying on the plane: the sine of an
+/// elevation.
+constexpr double kOnPlane = 1e-11;
+
 struct SideOfPlane {
   double a, b, c;
   SideOfPlane(const Vec3& v, const Vec3& q, double r) {
@@ -36,16 +42,13 @@ struct SideOfPlane {
     b = d.y * v.z - v.y * d.z;
     c = r * d.z;
   }
-  /// Positive: q is beyond the plane through v that touches the disk at angle; scaled to about the sine of
-  /// q's elevation.
-  double at(double angle) const {
-    const double size = std::hypot(a, b) + std::abs(c);
-    return size > 0.0 ? (a * std::cos(angle) + b * std::sin(angle) + c) / size : 0.0;
+  /// Whether q is on the disk's side of the plane through v that touches the disk at the angle of this
+  /// direction; what rounding cannot tell from the plane is not.
+  bool is_on_disk_side(const glm::dvec2& direction) const {
+    const double size = std::sqrt(a * a + b * b) + std::abs(c);
+    return a * direction.x + b * direction.y + c < -kOnPlane * size;
   }
 };
-
-/// Rounding in `SideOfPlane::at`, so that coplanar neighbours count as lying on the plane.
-constexpr double kOnPlane = 1e-11;
 
 constexpr double kSharpestTurn = 0.7 * kPi;
 
@@ -101,8 +104,15 @@ class Finder {
         rings_(rings),
         light_(light),
         frame_(light_frame(light)),
-        center_(light.center),
-        r_(light.radius) {}
+        r_(light.radius),
+        local_(mesh.positions().size()) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, local_.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const Vec3 p = mesh.positions()[i] - light.center;
+        local_[i] = {glm::dot(p, frame_.u), glm::dot(p, frame_.v), glm::dot(p, frame_.w)};
+      }
+    });
+  }
 
   Supports run(const Silhouettes& silhouettes) {
     find_facets(silhouettes.band);
@@ -112,10 +122,7 @@ class Finder {
   }
 
  private:
-  Vec3 local(VertexId v) const {
-    const Vec3 p = mesh_.position(v) - center_;
-    return {glm::dot(p, frame_.u), glm::dot(p, frame_.v), glm::dot(p, frame_.w)};
-  }
+  const Vec3& local(VertexId v) const { return local_[index(v)]; }
 
   /// The facets of one edge: its tangent planes that support the faces there.
   struct EdgeFacets {
@@ -168,7 +175,7 @@ class Finder {
 
   /// Links facets and finds cones, vertex by vertex.
   void find_corners() {
-    std::sort(ends_.begin(), ends_.end(), [](const FacetEnd& x, const FacetEnd& y) {
+    tbb::parallel_sort(ends_.begin(), ends_.end(), [](const FacetEnd& x, const FacetEnd& y) {
       return std::tie(x.vertex, x.kind, x.angle, x.facet) < std::tie(y.vertex, y.kind, y.angle, y.facet);
     });
     std::vector<std::span<const FacetEnd>> corners;
@@ -263,8 +270,9 @@ class Finder {
   /// All neighbours lie beyond the center's tangent plane at the angle: nothing of the star hides the disk's
   /// first point.
   bool ring_is_beyond(const Star& star, double angle) const {
+    const glm::dvec2 direction(std::cos(angle), std::sin(angle));
     return std::none_of(star.spokes.begin(), star.spokes.end(), [&](const Star::Spoke& s) {
-      return SideOfPlane(star.center, s.end, r_).at(angle) < -kOnPlane;
+      return SideOfPlane(star.center, s.end, r_).is_on_disk_side(direction);
     });
   }
 
@@ -311,8 +319,8 @@ class Finder {
   const VertexRings& rings_;
   const DiskLight& light_;
   const LightFrame frame_;
-  const Vec3 center_;
   const double r_;
+  std::vector<Vec3> local_;  ///< vertices in the light's frame
   std::vector<FacetEnd> ends_;
   Supports out_;
 };

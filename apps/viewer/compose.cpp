@@ -53,4 +53,24 @@ Pixels difference_of(const Side& left, const Side& right, double scale) {
   return pixels;
 }
 
+Pixels mosaic_of(const std::vector<TexturePicture>& textures, int side) {
+  if (textures.empty()) return {};
+  const int count = static_cast<int>(textures.size()), columns = std::min(4, count),
+            rows = (count + columns - 1) / columns, pitch = side + 1;
+  Pixels pixels{columns * pitch - 1, rows * pitch - 1, {}};
+  pixels.rgb.assign(3 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height), 70);
+  for (int i = 0; i < count; ++i) {
+    const TexturePicture& each = textures[static_cast<std::size_t>(i)];
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const int from_x = x * each.size / side, from_y = (side - 1 - y) * each.size / side;
+        const std::size_t from = static_cast<std::size_t>(from_y) * static_cast<std::size_t>(each.size) +
+                                 static_cast<std::size_t>(from_x);
+        const int to = (i / columns * pitch + y) * pixels.width + i % columns * pitch + x;
+        std::fill_n(pixels.rgb.begin() + 3 * static_cast<std::ptrdiff_t>(to), 3, each.values[from]);
+      }
+  }
+  return pixels;
+}
+
 }  // namespace penumbra::viewer

@@ -13,4 +13,8 @@ Pixels picture_of(const Side& side, Shown shown, double exposure);
 /// them; grey where no surface is seen. Both sides have one size.
 Pixels difference_of(const Side& left, const Side& right, double scale);
 
+/// Textures side by side from the upper left, each reduced to `side` pixels, at most four in a row; a line of
+/// one pixel between them. Empty where there are none.
+Pixels mosaic_of(const std::vector<TexturePicture>& textures, int side);
+
 }  // namespace penumbra::viewer

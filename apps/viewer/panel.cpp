@@ -185,9 +185,9 @@ void overlays_section(State& state, Places& places) {
   ImGui::SameLine(110);
   overlay_box("umbra", Command::kUmbraVolume, o.umbra, places);
   ImGui::SameLine(210);
-  ImGui::Checkbox("slices", &o.slices);
-  note_place(places, "slices");
-  help_on_hover("what the occlusion textures hold: slices from the light on (method occlusion-textures)");
+  ImGui::Checkbox("textures", &o.textures);
+  note_place(places, "textures");
+  help_on_hover("what the D-buffer or the occlusion textures hold, as the light sees it");
   if (o.sheets || o.penumbra || o.umbra) cut_widgets(o, places);
 }
 

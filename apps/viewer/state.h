@@ -30,7 +30,7 @@ struct Overlays {
   bool sheets = false;       ///< facets and cone patches of both boundaries
   bool penumbra = false;     ///< the closed volume
   bool umbra = false;        ///< the closed volume
-  bool slices = false;       ///< what the occlusion textures hold, beside each other
+  bool textures = false;     ///< what the D-buffer or the occlusion textures hold
   double cut = 1.0;  ///< sheets and volumes are drawn up to this part of the way: from the light's plane to
                      ///< the scene's far end, or along an axis through everything
   CutAxis cut_axis = CutAxis::kLight;

@@ -30,7 +30,7 @@ constexpr std::array kFlags{std::pair("light", &Overlays::light),
                             std::pair("sheets", &Overlays::sheets),
                             std::pair("penumbra", &Overlays::penumbra),
                             std::pair("umbra", &Overlays::umbra),
-                            std::pair("slices", &Overlays::slices)};
+                            std::pair("textures", &Overlays::textures)};
 
 nlohmann::json to_json(const Vec3& v) {
   return {v.x, v.y, v.z};

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <utility>
 
+#include "apps/failures.h"
 #include "apps/messages.h"
 #include "apps/outputs.h"
 #include "apps/viewer/actions.h"
@@ -16,6 +19,7 @@
 #include "apps/viewer/picture_view.h"
 #include "apps/viewer/pointer.h"
 #include "apps/viewer/probe_view.h"
+#include "apps/viewer/random_input.h"
 #include "apps/viewer/status.h"
 #include "apps/viewer/window.h"
 #include "apps/viewer/wishes.h"
@@ -31,6 +35,7 @@ class Viewer {
 
  private:
   void wait();
+  void play();
   void draw();
   void fit_picture();
   void obey(Command command);
@@ -59,6 +64,7 @@ class Viewer {
   Panel panel_;
   Costs costs_;
   StatusFile status_;
+  std::optional<RandomInput> random_input_;
   bool show_panel_, show_help_ = false;
   int frames_ = 0;                                 ///< drawn so far
   std::chrono::steady_clock::time_point drawn_{};  ///< when the last was
@@ -80,11 +86,14 @@ Viewer::Viewer(ViewerOptions options, State state, std::string message)
       probe_(window_.functions(), &Window::wake),
       exports_(&Window::wake),
       status_(options_.status),
-      show_panel_(!options_.plain) {}
+      show_panel_(!options_.plain) {
+  if (options_.random_input) random_input_.emplace(*options_.random_input, options_.seconds, options_.files);
+}
 
 int Viewer::run() {
   while (!window_.closing()) {
     wait();
+    play();
     for (const std::string& dropped : window_.take_dropped()) open(dropped);
     if (window_.minimised()) continue;
     const auto frame = worker_.latest();
@@ -103,7 +112,18 @@ int Viewer::run() {
     take_screenshot_when_due();
     window_.show_frame();
   }
-  return 0;
+  if (!random_input_) return apps::kFine;
+  apps::complain(random_input_->summary());
+  return random_input_->memory_stayed() ? apps::kFine : apps::kFailed;
+}
+
+// What tests do to the window from inside.
+void Viewer::play() {
+  if (!options_.drop.empty() && settled()) window_.drop(std::exchange(options_.drop, {}));
+  if (!random_input_) return;
+  if (random_input_->done()) return window_.close();
+  if (const auto command = random_input_->act(window_)) obey(*command);
+  frames_to_draw_ = 1;
 }
 
 // Sleeps where nothing is to be done: until an event, or until it is time to ask for the full picture.

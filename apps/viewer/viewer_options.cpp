@@ -38,9 +38,9 @@ bool& overlay_of(const std::string& word, Overlays& overlays) {
   if (word == "sheets") return overlays.sheets;
   if (word == "penumbra") return overlays.penumbra;
   if (word == "umbra") return overlays.umbra;
-  if (word == "slices") return overlays.slices;
+  if (word == "textures") return overlays.textures;
   throw UsageError("unknown overlay '" + word +
-                   "': use faces, silhouettes, band, sheets, penumbra, umbra or slices");
+                   "': use faces, silhouettes, band, sheets, penumbra, umbra or textures");
 }
 
 Arrangement arrangement_of(const std::string& word) {
@@ -71,7 +71,7 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
       ->capture_default_str();
   app.add_flag("--plain", options.plain, "Nothing but the picture: no panel, no handles");
   app.add_option("--overlay", words.overlays,
-                 "faces, silhouettes, band, sheets, penumbra, umbra or slices; may be repeated")
+                 "faces, silhouettes, band, sheets, penumbra, umbra or textures; may be repeated")
       ->take_all()
       ->expected(1);
   app.add_flag("--probe", options.state.probe, "Start with the probe");
@@ -86,6 +86,10 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
   app.add_option("--output", options.output, "Folder for what is saved from the window")
       ->type_name("FOLDER")
       ->capture_default_str();
+  // For tests, not in --help.
+  app.add_option("--random-input", options.random_input)->group("");
+  app.add_option("--seconds", options.seconds)->group("");
+  app.add_option("--drop", options.drop)->group("");
   apps::add_method_options(app, options.state.left);
 }
 

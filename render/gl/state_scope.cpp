@@ -5,7 +5,7 @@
 namespace penumbra::gl {
 namespace {
 
-constexpr GLenum kTextureUnits = 16;  // more than any pass binds
+constexpr GLenum kTextureUnits = 24;  // more than any pass binds
 
 void reset_tests(const Functions& gl) {
   for (const GLenum each : {GL_DEPTH_TEST, GL_CULL_FACE, GL_CLIP_DISTANCE0, GL_COLOR_LOGIC_OP})
