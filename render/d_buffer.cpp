@@ -185,7 +185,8 @@ void DBuffer::Impl::choose_view(const DBufferOptions& options, Plan& plan) const
     plan.receivers = shading.receiver_grid(plan.view(), options.size);
 }
 
-/// Classes to reach, stage by stage over all casters.
+/// Classes to reach, stage by stage over all casters. Most facets of a fine mesh are hidden; only where
+/// others end is it asked how the boundary goes on.
 void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const {
   plan.boundaries.resize(casters.size());
   const auto stage = [&](const char* name, const auto& body) {
@@ -196,12 +197,19 @@ void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClo
   stage("silhouette",
         [&](const Caster& c, Boundary& b) { b.silhouettes = find_silhouettes(*c.mesh, b.classes); });
   stage("supports", [&](const Caster& c, Boundary& b) {
-    b.supports = find_supports(*c.mesh, c.rings, light, b.silhouettes);
+    b.supports.facets = find_support_facets(*c.mesh, light, b.silhouettes);
     b.gaps = find_gap_faces(*c.mesh, light, b.classes, b.supports);
   });
   stage("reach", [&](const Caster& c, Boundary& b) {
-    const auto read = detail::find_read_entries(plan.footprints(c, b), b.supports, b.gaps, plan.receivers);
-    b.reach = detail::find_reach(*c.mesh, light, b.supports, read, rays);
+    const auto probes = detail::count_facet_probes(plan.footprints(c, b), b.supports, b.gaps, plan.receivers);
+    detail::find_facet_reach(*c.mesh, light, b.supports, probes, rays, b.reach);
+  });
+  stage("corners", [&](const Caster& c, Boundary& b) {
+    std::vector<char> in_sight(b.reach.facets.size());
+    for (std::size_t i = 0; i < in_sight.size(); ++i) in_sight[i] = b.reach.facets[i] > 0.0f;
+    link_support_facets(*c.mesh, c.rings, light, in_sight, b.supports);
+    const auto probes = detail::count_cone_probes(plan.footprints(c, b), b.supports, plan.receivers);
+    detail::find_cone_reach(*c.mesh, light, b.supports, probes, rays, b.reach);
   });
 }
 
@@ -278,7 +286,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   report(progress, 0.2);
   draw(plan, options, clock);
   report(progress, 0.6);
-  frame.visibility = shading.shade(plan.view(), plan.geometry, *layers, passes.records(), options);
+  frame.visibility = shading.shade(light, plan.view(), plan.geometry, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
   frame.counts["buffer_bytes"] = layers->bytes();

@@ -22,6 +22,12 @@ std::span<const NamedValue<CenterTest>> center_tests() {
   return kNames;
 }
 
+std::span<const NamedValue<EntryCheck>> entry_checks() {
+  static constexpr NamedValue<EntryCheck> kNames[] = {{EntryCheck::kRays, "rays"},
+                                                      {EntryCheck::kNone, "none"}};
+  return kNames;
+}
+
 std::span<const NamedValue<Conflict>> conflicts() {
   static constexpr NamedValue<Conflict> kNames[] = {{Conflict::kNearest, "nearest"},
                                                     {Conflict::kFurthest, "furthest"}};

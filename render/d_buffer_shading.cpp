@@ -19,6 +19,12 @@ std::unique_ptr<Object> image_texture(const gl::Functions& gl, GLenum format, in
   return texture;
 }
 
+/// Whether rays are asked about entries: only an edge says which part of the disk is lit.
+bool checks(const DBufferOptions& o) {
+  return o.check == EntryCheck::kRays && o.contents == DBufferContents::kEdge && o.entries == 1 &&
+         o.curve == VisibilityCurve::kExact && o.center == CenterTest::kRay;
+}
+
 }  // namespace
 
 /// One set for each way of reading the D-buffer.
@@ -28,22 +34,25 @@ struct DBufferShading::Programs {
         curve(options.curve),
         entries(options.entries),
         target_count(targets),
+        checked(checks(options)),
         center(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_center.frag.glsl"}}, {{"TARGETS", targets}}),
         select(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}}, {{"TARGETS", targets}}),
         visibility(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}},
                    {{"TARGETS", targets},
                     {"CONTENTS", static_cast<int>(contents)},
                     {"CURVE", static_cast<int>(curve)},
-                    {"ENTRIES", entries}}) {}
+                    {"ENTRIES", entries},
+                    {"CHECK", checked}}) {}
   bool fits(const DBufferOptions& options, int targets) const {
     return contents == options.contents && curve == options.curve && entries == options.entries &&
-           target_count == targets;
+           checked == checks(options) && target_count == targets;
   }
 
   static constexpr Program::Stage kTiles{GL_VERTEX_SHADER, "image_tiles.vert.glsl"};
   DBufferContents contents;
   VisibilityCurve curve;
   int entries, target_count;
+  bool checked;
   Program center, select, visibility;
 };
 
@@ -69,6 +78,7 @@ void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::
   surface_normal_ = upload(normals_);
   visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
+  aim_texture_ = image_texture(gl_, GL_RG32F, width_, height_);
   first_cut_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
   cuts_.clear();
@@ -81,10 +91,10 @@ void DBufferShading::trace_center(const DiskLight& light) {
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RED, GL_FLOAT, texels.data());
   };
   upload(*first_cut_, cuts_);
-  std::vector<float> without_entries = center_rays_->above_horizon(light);
+  without_entries_ = center_rays_->above_horizon(light);
   for (std::size_t i = 0; i < cuts_.size(); ++i)
-    if (cuts_[i] < 1.0f) without_entries[i] = 0.0f;
-  upload(*visibility_texture_, without_entries);
+    if (cuts_[i] < 1.0f) without_entries_[i] = 0.0f;
+  upload(*visibility_texture_, without_entries_);
 }
 
 ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
@@ -185,28 +195,47 @@ void DBufferShading::test_center_by_depth(const Programs& programs, const DBuffe
   gl_.Finish();
 }
 
+/// Drops the entries that rays refute.
+void DBufferShading::check(const DiskLight& light, std::vector<float>& visibility) const {
+  std::vector<glm::vec2> aims(visibility.size());
+  gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RG, GL_FLOAT, aims.data());
+  const std::vector<char> refuted = center_rays_->refuted(light, aims, cuts_);
+  for (std::size_t i = 0; i < visibility.size(); ++i)
+    if (refuted[i]) visibility[i] = without_entries_[i];
+}
+
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
 /// second.
-std::vector<float> DBufferShading::shade(const DBufferView& view, const EntryGeometry& geometry,
-                                         const DBufferLayers& layers, GLuint records,
-                                         const DBufferOptions& options) {
+std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferView& view,
+                                         const EntryGeometry& geometry, const DBufferLayers& layers,
+                                         GLuint records, const DBufferOptions& options) {
   Programs& with = programs(view, options);
   choose_tiles(view, geometry, options);
   gl_.Viewport(0, 0, width_, height_);
   if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, records);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *visibility_texture_, 0);
+  const GLenum colors[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[0], GL_TEXTURE_2D, *visibility_texture_, 0);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[1], GL_TEXTURE_2D, with.checked ? GLuint(*aim_texture_) : 0,
+                           0);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *mark_texture_, 0);
-  const GLenum color = GL_COLOR_ATTACHMENT0;
-  gl_.DrawBuffers(1, &color);
+  gl_.DrawBuffers(with.checked ? 2 : 1, colors);
   gl::require_complete_framebuffer(gl_, "shading from the D-buffer");
-  for (const Program* program : {&with.select, &with.visibility}) {
-    gl_.DepthFunc(program == &with.select ? GL_ALWAYS : GL_LESS);  // tiles lie at depth 0.5
-    shade_pixels(*program, view, layers, records);
-  }
+  const float nowhere[4] = {2.0f, 2.0f, 0.0f, 0.0f};
+  if (with.checked) gl_.ClearBufferfv(GL_COLOR, 1, nowhere);
+  gl_.DrawBuffers(1, colors);
+  gl_.DepthFunc(GL_ALWAYS);
+  shade_pixels(with.select, view, layers, records);
+  gl_.DrawBuffers(with.checked ? 2 : 1, colors);
+  gl_.DepthFunc(GL_LESS);  // tiles lie at depth 0.5
+  shade_pixels(with.visibility, view, layers, records);
   gl_.Finish();
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
   gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, out.data());
+  if (with.checked) check(light, out);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[1], GL_TEXTURE_2D, 0, 0);
+  gl_.DrawBuffers(1, colors);
   return out;
 }
 

@@ -38,7 +38,7 @@ class DBufferShading {
 
   /// Visibility of every pixel. The framebuffer that is bound is used and its attachments are replaced.
   /// `records` is the buffer texture of facets.
-  std::vector<float> shade(const DBufferView& view, const EntryGeometry& geometry,
+  std::vector<float> shade(const DiskLight& light, const DBufferView& view, const EntryGeometry& geometry,
                            const DBufferLayers& layers, GLuint records, const DBufferOptions& options);
 
  private:
@@ -50,15 +50,16 @@ class DBufferShading {
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
                     GLuint records) const;
+  void check(const DiskLight& light, std::vector<float>& visibility) const;
   void bind_textures(const gl::Program& program, const DBufferLayers& layers, GLuint records) const;
 
   const gl::Functions& gl_;
   int width_ = 0, height_ = 0;
   std::unique_ptr<gl::Object> surface_position_, surface_normal_, first_cut_, visibility_texture_,
-      mark_texture_;
+      mark_texture_, aim_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
-  std::vector<float> cuts_;
+  std::vector<float> cuts_, without_entries_;
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
   std::vector<std::unique_ptr<Programs>> programs_;  ///< made when needed

@@ -13,6 +13,15 @@ Uvw project(const Vec3& p) {
   return {glm::dvec2(p.x, p.y) / p.z, 1.0 / p.z};
 }
 
+/// Of what is no wider than this in texels one ray is as good as three.
+constexpr double kNarrow = 32.0;
+
+std::uint8_t probes_across(double width, double texel) {
+  return width < kNarrow * texel ? 1 : 3;
+}
+
+constexpr float kUnlimited = std::numeric_limits<float>::infinity();
+
 }  // namespace
 
 LightSpace::LightSpace(const DiskLight& light, double scale_factor)
@@ -124,29 +133,38 @@ bool EntryFootprints::cut(Vec3& a, Vec3& b) const {
   return true;
 }
 
-ReadEntries find_read_entries(const EntryFootprints& footprints, const Supports& supports,
-                              const std::vector<GapFace>& gaps, const ReceiverGrid& receivers) {
-  constexpr float kUnlimited = std::numeric_limits<float>::infinity();
-  ReadEntries read{std::vector<char>(supports.facets.size(), 1), std::vector<char>(supports.cones.size(), 1)};
-  if (receivers.is_everywhere()) return read;
-  const auto below = [&](SupportKind kind, const UvBounds& bounds, double nearest) {
-    return receivers.least_weight(kind, bounds) < nearest;
-  };
-  tbb::parallel_for(std::size_t{0}, supports.facets.size(), [&](std::size_t i) {
+std::vector<std::uint8_t> count_facet_probes(const EntryFootprints& footprints, const Supports& supports,
+                                             const std::vector<GapFace>& gaps,
+                                             const ReceiverGrid& receivers) {
+  std::vector<std::uint8_t> probes(supports.facets.size());
+  tbb::parallel_for(std::size_t{0}, probes.size(), [&](std::size_t i) {
     const auto f = footprints.facet(static_cast<std::uint32_t>(i), kUnlimited, 0.0);
-    read.facets[i] =
-        f && below(supports.facets[i].kind, uv_bounds_of(f->corners), std::max(f->from_weight, f->to_weight));
-  });
-  tbb::parallel_for(std::size_t{0}, supports.cones.size(), [&](std::size_t i) {
-    const auto c = footprints.cone(supports.cones[i], kUnlimited, 0.0);
-    read.cones[i] = c && below(supports.cones[i].kind, uv_bounds_of(*c), c->apex.w);
+    if (!f) return;
+    const double least = receivers.least_weight(supports.facets[i].kind, uv_bounds_of(f->corners));
+    const double length = glm::distance(f->corners[0].uv, f->corners[1].uv);
+    if (least < std::max(f->from_weight, f->to_weight))
+      probes[i] = probes_across(length, footprints.dilation(f->corners[0].uv));
   });
   for (const GapFace& gap : gaps) {  // drawn where its facet is in sight
     const auto g = footprints.gap(gap);
-    if (g && below(SupportKind::kUmbra, uv_bounds_of(*g), std::max({(*g)[0].w, (*g)[1].w, (*g)[2].w})))
-      read.facets[gap.facet] = 1;
+    if (!g || probes[gap.facet] > 0) continue;
+    const double nearest = std::max({(*g)[0].w, (*g)[1].w, (*g)[2].w});
+    if (receivers.least_weight(SupportKind::kUmbra, uv_bounds_of(*g)) < nearest) probes[gap.facet] = 1;
   }
-  return read;
+  return probes;
+}
+
+std::vector<std::uint8_t> count_cone_probes(const EntryFootprints& footprints, const Supports& supports,
+                                            const ReceiverGrid& receivers) {
+  std::vector<std::uint8_t> probes(supports.cones.size());
+  tbb::parallel_for(std::size_t{0}, probes.size(), [&](std::size_t i) {
+    const ConeSector& sector = supports.cones[i];
+    const auto c = footprints.cone(sector, kUnlimited, 0.0);
+    if (c && receivers.least_weight(sector.kind, uv_bounds_of(*c)) < c->apex.w)
+      probes[i] =
+          probes_across((sector.to_angle - sector.from_angle) * c->radius, footprints.dilation(c->apex.uv));
+  });
+  return probes;
 }
 
 }  // namespace penumbra::detail

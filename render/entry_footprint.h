@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <vector>
@@ -94,8 +95,12 @@ inline UvBounds uv_bounds_of(const EntryFootprints::Cone& cone) {
   return {cone.apex.uv - cone.radius, cone.apex.uv + cone.radius};
 }
 
-/// What some receiver may read, if nothing cut it short. Cost O(facets + cones + gaps), on all cores.
-ReadEntries find_read_entries(const EntryFootprints& footprints, const Supports& supports,
-                              const std::vector<GapFace>& gaps, const ReceiverGrid& receivers);
+/// How many rays it takes to find the reach of each facet (see facet_reach.h): 0 where no receiver would read
+/// it, nor a gap face beside it, even if nothing cut it short. Cost O(facets + gaps), on all cores.
+std::vector<std::uint8_t> count_facet_probes(const EntryFootprints& footprints, const Supports& supports,
+                                             const std::vector<GapFace>& gaps, const ReceiverGrid& receivers);
+/// The same for cone sectors.
+std::vector<std::uint8_t> count_cone_probes(const EntryFootprints& footprints, const Supports& supports,
+                                            const ReceiverGrid& receivers);
 
 }  // namespace penumbra::detail

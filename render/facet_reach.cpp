@@ -75,43 +75,45 @@ class Prober {
   const double radius_;
 };
 
-/// Over three places along an edge or round a sector, 0 to 1; infinity is not surpassed.
+/// Over up to three places along an edge or round a sector, 0 to 1; infinity is not surpassed.
 template <class Reach>
-float farthest(const Reach& reach_at) {
+float farthest(int count, const Reach& reach_at) {
+  constexpr double kPlaces[] = {0.5, 0.1, 0.9};
   float most = 0.0f;
-  for (double t : {0.5, 0.1, 0.9})
-    if (std::isfinite(most)) most = std::max(most, reach_at(t));
+  for (int i = 0; i < count; ++i)
+    if (std::isfinite(most)) most = std::max(most, reach_at(kPlaces[i]));
   return most;
 }
 
 }  // namespace
 
-FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
-                      const ReadEntries& read, const RayScene& rays) {
+void find_facet_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                      std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
   const Prober prober(light, rays);
-  FacetReach out;
-  out.facets.resize(supports.facets.size());
-  out.cones.resize(supports.cones.size());
-  const auto probe_facet = [&](std::size_t i) {
-    if (!read.facets[i]) return;
+  out.facets.assign(supports.facets.size(), 0.0f);
+  const auto probe = [&](std::size_t i) {
     const SupportFacet& f = supports.facets[i];
     const Edge& e = mesh.edges()[index(f.edge)];
     Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
     prober.cut_to_front(a, b);
-    out.facets[i] = farthest([&](double t) { return prober.reach({a + t * (b - a), f.rim_angle}, f.kind); });
+    out.facets[i] = farthest(probes[i], [&](double t) {
+      return prober.reach({a + t * (b - a), f.rim_angle}, f.kind);
+    });
   };
-  const auto probe_cone = [&](std::size_t i) {
-    if (!read.cones[i]) return;
+  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
+}
+
+void find_cone_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                     std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
+  const Prober prober(light, rays);
+  out.cones.assign(supports.cones.size(), 0.0f);
+  const auto probe = [&](std::size_t i) {
     const ConeSector& c = supports.cones[i];
-    out.cones[i] = farthest([&](double t) {
+    out.cones[i] = farthest(probes[i], [&](double t) {
       return prober.reach({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
     });
   };
-  rays.impl().arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe_facet);
-    tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe_cone);
-  });
-  return out;
+  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });
 }
 
 }  // namespace penumbra::detail
