@@ -118,8 +118,9 @@ void add_occlusion_options(CLI::App& command, OcclusionOptions& options) {
   add_choice(command, "--thin-fix", options.thin_fix, thin_fixes(),
              "Draw each slice into the next one too; auto: for open and thin objects")
       ->group(group);
-  add_choice(command, "--slice-range", options.range, slice_ranges(),
-             "Depths that are sliced: of all or of casters")
+  add_choice(
+      command, "--slice-range", options.range, slice_ranges(),
+      "Depths that are sliced: of all or of casters; auto: of casters where they nearly touch a receiver")
       ->group(group);
   add_choice(command, "--coverage", options.coverage, slice_coverages(),
              "Texels by their centers or by eight samples")

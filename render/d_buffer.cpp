@@ -9,6 +9,7 @@
 #include "mesh/vertex_rings.h"
 #include "render/d_buffer_passes.h"
 #include "render/d_buffer_shading.h"
+#include "render/gl/state_scope.h"
 #include "render/ray_scene.h"
 #include "volumes/volumes.h"
 
@@ -32,7 +33,8 @@ struct DBuffer::Impl {
   Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_);
 
   void set_surface(const SurfaceBuffer& surface);
-  DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
+  DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress);
+  std::vector<TexturePicture> textures() const;
 
   /// Where one caster's shadow is bounded.
   struct Boundary {
@@ -267,7 +269,8 @@ void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageC
   clock.finish("entries");
 }
 
-DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options) {
+DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options,
+                                   const Progress& progress) {
   DBufferFrame frame;
   StageClock clock;
   const detail::LightSpace space(light, scale);
@@ -280,7 +283,9 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   find_geometry(plan);
   clock.finish("facets");
   frame.counts = count(plan);
+  report(progress, 0.2);
   draw(plan, options, clock);
+  report(progress, 0.6);
   frame.visibility = shading.shade(light, plan.view(), plan.geometry, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
@@ -289,8 +294,47 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   return frame;
 }
 
+/// Numbers differ from their neighbours' by a grey that can be told apart; 0 stays 0.
+std::uint8_t grey_of(std::uint32_t number) {
+  return number ? static_cast<std::uint8_t>(56u + (number * 2654435761u >> 16) % 200u) : std::uint8_t{0};
+}
+
+std::vector<TexturePicture> DBuffer::Impl::textures() const {
+  if (!layers) return {};
+  using detail::EntryKind;
+  const auto entries = [&](EntryKind kind) { return layers->layer_of(kind, 0); };
+  const struct {
+    const char* name;
+    GLuint texture;
+    int layer;
+  } shown[] = {{"first surface", layers->occluder.id.texture, 0},
+               {"penumbra", layers->first_entries.id.texture, entries(EntryKind::kPenumbra)},
+               {"umbra before", layers->first_entries.id.texture, entries(EntryKind::kAbove)},
+               {"umbra behind", layers->first_entries.id.texture, entries(EntryKind::kBelow)}};
+  std::vector<TexturePicture> pictures;
+  std::vector<std::uint32_t> numbers(static_cast<std::size_t>(layers->size) *
+                                     static_cast<std::size_t>(layers->size));
+  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
+  for (const auto& each : shown) {
+    gl.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, each.texture, 0, each.layer);
+    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
+    gl.ReadPixels(0, 0, layers->size, layers->size, GL_RED_INTEGER, GL_UNSIGNED_INT, numbers.data());
+    TexturePicture picture{each.name, layers->size, {}};
+    std::uint32_t any = 0;
+    for (const std::uint32_t number : numbers) {
+      picture.values.push_back(grey_of(number));
+      any |= number;
+    }
+    if (any) pictures.push_back(std::move(picture));  // the first surface is not drawn for every option
+  }
+  gl::require_no_error(gl, "reading the D-buffer");
+  return pictures;
+}
+
 DBuffer::DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays) {
   context.make_current();
+  const gl::StateScope scope(context.functions());
   impl_ = std::make_unique<Impl>(context, scene, rays);
 }
 
@@ -300,10 +344,12 @@ DBuffer::~DBuffer() {
 
 void DBuffer::set_surface(const SurfaceBuffer& surface) {
   impl_->context.make_current();
+  const gl::StateScope scope(impl_->gl);
   impl_->set_surface(surface);
 }
 
-DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& options) {
+DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& options,
+                             const Progress& progress) {
   if (options.size < 16 || options.size > 8192)
     throw UsageError("D-buffer size must lie in 16 to 8192 texels, not " + std::to_string(options.size));
   if (options.entries < 1 || options.entries > 2)
@@ -313,7 +359,14 @@ DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& optio
     throw UsageError("two D-buffer entries need --dbuffer edge and --conflict nearest");
   if (!impl_->shading.has_surface()) throw UsageError("DBuffer::set_surface has to come before render");
   impl_->context.make_current();
-  return impl_->render(light, options);
+  const gl::StateScope scope(impl_->gl);
+  return impl_->render(light, options, progress);
+}
+
+std::vector<TexturePicture> DBuffer::textures() const {
+  impl_->context.make_current();
+  const gl::StateScope scope(impl_->gl);
+  return impl_->textures();
 }
 
 }  // namespace penumbra

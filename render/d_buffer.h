@@ -15,11 +15,13 @@
 #include <string>
 #include <vector>
 
+#include "mesh/progress.h"
 #include "render/gl/context.h"
 #include "render/named_value.h"
 #include "render/scene.h"
 #include "render/stage_clock.h"
 #include "render/surface_buffer.h"
+#include "render/texture_picture.h"
 
 namespace penumbra {
 
@@ -78,9 +80,12 @@ class DBuffer {
   void set_surface(const SurfaceBuffer& surface);
   /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.
   /// Throws UsageError for a size or entries outside their range and before set_surface, SystemError where
-  /// OpenGL fails. Cost O(faces + band + texels + pixels), and one or two rays a pixel with CenterTest::kRay,
-  /// as many again where entries apply with EntryCheck::kRays.
-  DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
+  /// OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), and one or two rays a pixel with
+  /// CenterTest::kRay, as many again where entries apply with EntryCheck::kRays.
+  DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
+  /// What the last frame left in the textures of the first target, by number, one grey a number: the first
+  /// surface, penumbra entries, umbra entries before and behind the last surface; none that are empty.
+  std::vector<TexturePicture> textures() const;
 
  private:
   struct Impl;

@@ -19,6 +19,7 @@ class MipPyramid {
   /// Eight reads for a square. What is left of a box at the border is read by smaller squares: a level that
   /// reached beyond it would see too little.
   double covered(const TexelBox& any_box) const;
+  void covered(const TexelBoxes& boxes, double* out) const { covered_each(*this, boxes, out); }
   std::size_t bytes() const;
 
  private:

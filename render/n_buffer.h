@@ -20,6 +20,7 @@ class NBuffer {
   NBuffer(std::span<const std::uint8_t> texels, int size);
   /// Eight reads for a square, four where its side is a power of two.
   double covered(const TexelBox& box) const;
+  void covered(const TexelBoxes& boxes, double* out) const { covered_each(*this, boxes, out); }
   std::size_t bytes() const;
 
  private:

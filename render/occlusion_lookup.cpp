@@ -2,9 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "render/vector_clones.h"
 
 namespace penumbra::detail {
 namespace {
@@ -16,35 +19,71 @@ double area_left_of(double x) {
   return std::numbers::pi / 2.0 + std::asin(x) + x * std::sqrt(1.0 - x * x);
 }
 
-/// What the slices seen so far leave of the light.
-class Combination {
- public:
-  Combination(OcclusionCombine rule, double above) : rule_(rule), left_(above), above_(above) {}
-  void hide(double share) {
-    switch (rule_) {
-      case OcclusionCombine::kProduct:
-        left_ *= 1.0 - share;
-        break;
-      case OcclusionCombine::kSum:
-        left_ -= share;
-        break;
-      case OcclusionCombine::kMaximum:
-        left_ = std::min(left_, std::min(above_, 1.0 - share));
-        break;
-    }
+/// What the slices seen so far leave of the light, receiver by receiver.
+PENUMBRA_VECTOR_CLONES
+void hide(OcclusionCombine rule, const double* __restrict share, const double* above, std::size_t count,
+          double* __restrict left) {
+  switch (rule) {
+    case OcclusionCombine::kProduct:
+      for (std::size_t i = 0; i < count; ++i) left[i] *= 1.0 - share[i];
+      break;
+    case OcclusionCombine::kSum:
+      for (std::size_t i = 0; i < count; ++i) left[i] -= share[i];
+      break;
+    case OcclusionCombine::kMaximum:
+      for (std::size_t i = 0; i < count; ++i) left[i] = std::min(left[i], std::min(above[i], 1.0 - share[i]));
+      break;
   }
-  double left() const { return std::clamp(left_, 0.0, above_); }
-
- private:
-  OcclusionCombine rule_;
-  double left_, above_;
-};
+}
 
 /// Where a slice lies, in numbers that a lookup needs.
 struct Plane {
   double depth;
   glm::dvec2 texels_per_unit;  ///< of the light's frame, on this plane
 };
+
+/// A part of the light, and where texel (0, 0) is on its plane.
+struct LightBox {
+  KernelPart part;
+  glm::dvec2 half, origin;
+};
+
+/// The light as receivers see it on a plane: a box of texels for each. Those are at least a texel wide: a
+/// smaller one would see single texels.
+PENUMBRA_VECTOR_CLONES
+void project_light(const SliceReceivers& __restrict from, const Plane& plane, const LightBox& light,
+                   TexelBoxes& __restrict boxes) {
+  const glm::dvec2 unit = plane.texels_per_unit, half = light.half * unit, origin = light.origin;
+  const KernelPart part = light.part;
+  const double depth = plane.depth;
+  for (std::size_t i = 0; i < from.count; ++i) {
+    const double near = depth / from.z[i];
+    const double x = origin.x + from.x[i] * near * unit.x, y = origin.y + from.y[i] * near * unit.y;
+    const double hx = std::max(half.x * (1.0 - near), 0.5), hy = std::max(half.y * (1.0 - near), 0.5);
+    boxes.x0[i] = x + part.x0 * hx;
+    boxes.x1[i] = x + part.x1 * hx;
+    boxes.y0[i] = y + part.y0 * hy;
+    boxes.y1[i] = y + part.y1 * hy;
+  }
+}
+
+/// Adds what boxes see covered, as parts of the light.
+PENUMBRA_VECTOR_CLONES
+void add_shares(const TexelBoxes& boxes, const double* __restrict covered, double part,
+                double* __restrict share) {
+  for (std::size_t i = 0; i < boxes.count; ++i)
+    share[i] += part * covered[i] / ((boxes.x1[i] - boxes.x0[i]) * (boxes.y1[i] - boxes.y0[i]));
+}
+
+/// A slice fades in behind its plane, from nothing to all of it over its thickness.
+PENUMBRA_VECTOR_CLONES
+void fade_in(const SliceReceivers& receivers, const Plane& plane, double per_thickness,
+             double* __restrict share) {
+  for (std::size_t i = 0; i < receivers.count; ++i) {
+    const double fade = std::clamp((receivers.z[i] - plane.depth) * per_thickness, 0.0, 1.0);
+    share[i] = fade * std::clamp(share[i], 0.0, 1.0);
+  }
+}
 
 /// On the light's plane.
 glm::dvec2 texels_per_unit(const SliceFrustum& frustum, const OcclusionOptions& options) {
@@ -71,16 +110,17 @@ class FilteredSlices : public OcclusionLookup {
     });
   }
 
-  double visibility(const Vec3& p, double above) const override {
-    Combination combination(rule_, above);
-    const double per_depth = 1.0 / p.z;
-    const glm::dvec2 slope = glm::dvec2(p) * per_depth;
-    for (std::size_t i = 0; i < planes_.size() && planes_[i].depth < p.z; ++i) {
+  void look_up(SliceReceivers& receivers) const override {
+    Work work;
+    auto& left = receivers.visibility;
+    std::copy_n(receivers.above.begin(), receivers.count, left.begin());
+    const double* farthest = std::max_element(receivers.z.data(), receivers.z.data() + receivers.count);
+    for (std::size_t i = 0; i < planes_.size() && receivers.count && planes_[i].depth < *farthest; ++i) {
       if (!filters_[i]) continue;
-      const double fade = std::min(1.0, (p.z - planes_[i].depth) * per_thickness_);
-      combination.hide(fade * hidden(*filters_[i], planes_[i], slope, per_depth));
+      find_shares(receivers, i, work);
+      hide(rule_, work.share.data(), receivers.above.data(), receivers.count, left.data());
     }
-    return combination.left();
+    for (std::size_t i = 0; i < receivers.count; ++i) left[i] = std::clamp(left[i], 0.0, receivers.above[i]);
   }
 
   std::size_t bytes() const override {
@@ -90,19 +130,21 @@ class FilteredSlices : public OcclusionLookup {
   }
 
  private:
-  /// The share of the light that one slice hides. Kernels are at least a texel wide: a smaller one would see
-  /// single texels.
-  double hidden(const Filter& filter, const Plane& plane, const glm::dvec2& slope, double per_depth) const {
-    const glm::dvec2 middle = origin_ + slope * plane.depth * plane.texels_per_unit;
-    const glm::dvec2 half = half_ * (1.0 - plane.depth * per_depth) * plane.texels_per_unit;
-    const double hx = std::max(half.x, 0.5), hy = std::max(half.y, 0.5);
-    double sum = 0.0;
+  struct Work {
+    TexelBoxes boxes;
+    alignas(64) std::array<double, SliceReceivers::kMost> covered, share;
+  };
+
+  /// The share of the light that one slice hides, receiver by receiver.
+  void find_shares(const SliceReceivers& receivers, std::size_t slice, Work& work) const {
+    work.boxes.count = receivers.count;
+    std::fill_n(work.share.begin(), receivers.count, 0.0);
     for (const KernelPart& part : parts_) {
-      const TexelBox box{middle.x + part.x0 * hx, middle.y + part.y0 * hy, middle.x + part.x1 * hx,
-                         middle.y + part.y1 * hy};
-      sum += part.share * filter.covered(box) / box.area();
+      project_light(receivers, planes_[slice], {part, half_, origin_}, work.boxes);
+      filters_[slice]->covered(work.boxes, work.covered.data());
+      add_shares(work.boxes, work.covered.data(), part.share, work.share.data());
     }
-    return std::clamp(sum, 0.0, 1.0);
+    fade_in(receivers, planes_[slice], per_thickness_, work.share.data());
   }
 
   std::vector<std::unique_ptr<Filter>> filters_;  ///< none where the slice is empty
@@ -114,6 +156,13 @@ class FilteredSlices : public OcclusionLookup {
 };
 
 }  // namespace
+
+void SliceReceivers::add(const Vec3& p, double above_horizon) {
+  x[count] = p.x;
+  y[count] = p.y;
+  z[count] = p.z;
+  above[count++] = above_horizon;
+}
 
 std::vector<KernelPart> kernel_parts(const AreaLight& light, OcclusionKernel kernel) {
   if (!light.disk) return {{-1.0, -1.0, 1.0, 1.0, 1.0}};

@@ -6,6 +6,7 @@
 // ends just before it fades in with the distance to its plane, from 0 to 1 over one slice.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -24,12 +25,22 @@ struct KernelPart {
 /// One box, or for OcclusionKernel::kDisk of a disk light strips across it.
 std::vector<KernelPart> kernel_parts(const AreaLight& light, OcclusionKernel kernel);
 
-/// Visibility at points in the space of the frustum, as a fraction of the light. One class a filter.
+/// Receivers that are looked up together, in the space of the frustum.
+struct SliceReceivers {
+  static constexpr std::size_t kMost = TexelBoxes::kMost;
+  std::size_t count = 0;
+  alignas(64) std::array<double, kMost> x, y, z;
+  alignas(64) std::array<double, kMost> above;       ///< fraction of the light above the horizon
+  alignas(64) std::array<double, kMost> visibility;  ///< the answer
+  void add(const Vec3& p, double above_horizon);
+};
+
+/// Visibility at points, as a fraction of the light. One class a filter.
 class OcclusionLookup {
  public:
   virtual ~OcclusionLookup() = default;
-  /// `above`: the fraction above the receiver's horizon. Precondition: p.z > 0.
-  virtual double visibility(const Vec3& p, double above) const = 0;
+  /// Precondition: every z > 0. O(slices) each, whatever the light's size.
+  virtual void look_up(SliceReceivers& receivers) const = 0;
   virtual std::size_t bytes() const = 0;
 };
 /// Prefilters all slices, several at a time.

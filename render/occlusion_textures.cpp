@@ -1,21 +1,26 @@
 #include "render/occlusion_textures.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <string>
 
 #include "mesh/error.h"
+#include "render/gl/state_scope.h"
 #include "render/occlusion_lookup.h"
 #include "render/ray_scene.h"
 #include "render/shading.h"
 
 namespace penumbra {
 namespace {
+
+constexpr int kTile = 16;        // pixels a side
+constexpr int kRowsAtOnce = 12;  // of tiles, before somebody is asked whether to go on
+static_assert(kTile * kTile <= detail::SliceReceivers::kMost);
 
 void require_valid(const OcclusionOptions& o) {
   if (o.slices < 4 || o.slices > 16 || o.slices % 4 != 0)
@@ -31,7 +36,8 @@ void require_valid(const OcclusionOptions& o) {
 
 struct OcclusionTextures::Impl {
   Impl(gl::Context& context_, const Scene& scene_, int threads);
-  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options);
+  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                        const Progress& progress);
 
   /// What one frame knows before anything is drawn.
   struct Plan {
@@ -41,8 +47,11 @@ struct OcclusionTextures::Impl {
     bool nothing_casts = false;
   };
   Plan plan(const detail::SliceSpace& space, const OcclusionOptions& options) const;
+  detail::DepthRange range_to_slice(const detail::DepthRange& of_casters, const detail::SliceSpace& space,
+                                    const OcclusionOptions& options) const;
   void look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
-               const detail::OcclusionLookup* lookup, std::vector<float>& visibility) const;
+               const detail::OcclusionLookup* lookup, const Progress& progress,
+               std::vector<float>& visibility) const;
 
   gl::Context& context;
   const Scene& scene;
@@ -79,6 +88,20 @@ OcclusionTextures::Impl::Impl(gl::Context& context_, const Scene& scene_, int th
   gl::require_no_error(context.functions(), "uploading casters");
 }
 
+detail::DepthRange OcclusionTextures::Impl::range_to_slice(const detail::DepthRange& of_casters,
+                                                           const detail::SliceSpace& space,
+                                                           const OcclusionOptions& options) const {
+  if (options.range == SliceRange::kCasters) return of_casters;
+  detail::DepthRange all = of_casters, others;
+  for (const SceneObject& object : scene.objects)
+    for (const Vec3& p : object.mesh.positions())
+      (object.casts ? all : others).add(std::max(space.to_light(p).z, detail::kNearSlice));
+  all.add(others);
+  const double slice = (all.far - all.near) / options.slices;
+  const bool contact = others.near < of_casters.far + slice;
+  return options.range == SliceRange::kAuto && contact ? of_casters : all;
+}
+
 OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceSpace& space,
                                                             const OcclusionOptions& options) const {
   Plan plan;
@@ -89,11 +112,7 @@ OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceS
   }
   plan.nothing_casts = depth.empty();
   if (plan.nothing_casts) return plan;
-  if (options.range == SliceRange::kScene)
-    for (const SceneObject& object : scene.objects)
-      for (const Vec3& p : object.mesh.positions())
-        depth.add(std::max(space.to_light(p).z, detail::kNearSlice));
-  plan.frustum = detail::fit_frustum(plan.extents, depth, space, options);
+  plan.frustum = detail::fit_frustum(plan.extents, range_to_slice(depth, space, options), space, options);
   for (std::size_t i = 0; i < casters.size(); ++i) {
     const bool leaks = options.thin_fix == ThinFix::kAuto &&
                        detail::may_leak(thickness[i], plan.extents[i], space, plan.frustum);
@@ -106,25 +125,43 @@ OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceS
 
 /// `lookup`: none where nothing casts.
 void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
-                                      const detail::OcclusionLookup* lookup,
+                                      const detail::OcclusionLookup* lookup, const Progress& progress,
                                       std::vector<float>& visibility) const {
   visibility.assign(surface.size(), 1.0f);
-  const auto one = [&](std::size_t i) {
-    if (!surface.hit(i)) return;
-    const Vec3 p = space.to_light(surface.position[i]);
-    const double above = fraction_above_horizon(space.light, surface.position[i], surface.normal[i]);
-    visibility[i] =
-        static_cast<float>(lookup && p.z > 0.0 && above > 0.0 ? lookup->visibility(p, above) : above);
+  using detail::SliceReceivers;
+  // Neighbours in both directions look at the same texels.
+  const auto tile = [&](int left, int top) {
+    SliceReceivers receivers;
+    std::array<std::size_t, SliceReceivers::kMost> pixels;
+    for (int y = top; y < std::min(top + kTile, surface.height); ++y)
+      for (int x = left; x < std::min(left + kTile, surface.width); ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
+                              static_cast<std::size_t>(x);
+        if (!surface.hit(i)) continue;
+        const Vec3 p = space.to_light(surface.position[i]);
+        const double above = fraction_above_horizon(space.light, surface.position[i], surface.normal[i]);
+        visibility[i] = static_cast<float>(above);
+        if (!lookup || !(p.z > 0.0) || !(above > 0.0)) continue;
+        pixels[receivers.count] = i;
+        receivers.add(p, above);
+      }
+    if (lookup) lookup->look_up(receivers);
+    for (std::size_t k = 0; k < receivers.count; ++k)
+      visibility[pixels[k]] = static_cast<float>(receivers.visibility[k]);
   };
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 2048), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) one(i);
+  const int rows = (surface.height + kTile - 1) / kTile;
+  for (int first = 0; first < rows; first += kRowsAtOnce) {
+    report(progress, static_cast<double>(first) / rows);
+    arena.execute([&] {
+      tbb::parallel_for(first, std::min(rows, first + kRowsAtOnce), [&](int row) {
+        for (int left = 0; left < surface.width; left += kTile) tile(left, row * kTile);
+      });
     });
-  });
+  }
 }
 
-OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
-                                               const OcclusionOptions& options) {
+OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                                               const Progress& progress) {
   OcclusionFrame frame;
   StageClock clock;
   const detail::SliceSpace space(area_light(scene), scale);
@@ -135,8 +172,9 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
   if (!plan.nothing_casts) {
     const LightFrame& f = space.light.axes;
     const glm::mat3 axes(glm::transpose(glm::dmat3(f.u, f.v, f.w)));
-    const auto slices =
+    auto slices =
         masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
+    report(progress, 0.0);
     arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
     clock.finish("prefilter");
     const auto used = std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); });
@@ -149,8 +187,12 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface,
                                      ? nlohmann::json(1.0 / (plan.frustum.narrowing * space.scale))
                                      : nlohmann::json("orthographic");
     frame.counts["texture_bytes"] = lookup->bytes();
+    for (std::size_t i = 0; i < slices.size(); ++i)
+      if (!slices[i].empty())
+        frame.textures.push_back(
+            {"slice " + std::to_string(i + 1), options.texture_size, std::move(slices[i])});
   }
-  look_up(space, surface, lookup.get(), frame.visibility);
+  look_up(space, surface, lookup.get(), progress, frame.visibility);
   clock.finish("visibility");
   gl::require_no_error(context.functions(), "rendering occlusion textures");
   frame.stages = clock.stages();
@@ -184,8 +226,8 @@ std::span<const NamedValue<ThinFix>> thin_fixes() {
 }
 
 std::span<const NamedValue<SliceRange>> slice_ranges() {
-  static constexpr NamedValue<SliceRange> kNames[] = {{SliceRange::kScene, "scene"},
-                                                      {SliceRange::kCasters, "casters"}};
+  static constexpr NamedValue<SliceRange> kNames[] = {
+      {SliceRange::kScene, "scene"}, {SliceRange::kCasters, "casters"}, {SliceRange::kAuto, "auto"}};
   return kNames;
 }
 
@@ -203,6 +245,7 @@ std::span<const NamedValue<SliceFaces>> slice_faces() {
 
 OcclusionTextures::OcclusionTextures(gl::Context& context, const Scene& scene, int threads) {
   context.make_current();
+  const gl::StateScope scope(context.functions());
   impl_ = std::make_unique<Impl>(context, scene, threads);
 }
 
@@ -210,10 +253,12 @@ OcclusionTextures::~OcclusionTextures() {
   if (impl_) impl_->context.make_current();
 }
 
-OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options) {
+OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                                         const Progress& progress) {
   require_valid(options);
   impl_->context.make_current();
-  return impl_->render(surface, options);
+  const gl::StateScope scope(impl_->context.functions());
+  return impl_->render(surface, options, progress);
 }
 
 }  // namespace penumbra

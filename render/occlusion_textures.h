@@ -21,11 +21,13 @@
 #include <span>
 #include <vector>
 
+#include "mesh/progress.h"
 #include "render/gl/context.h"
 #include "render/named_value.h"
 #include "render/scene.h"
 #include "render/stage_clock.h"
 #include "render/surface_buffer.h"
+#include "render/texture_picture.h"
 
 namespace penumbra {
 
@@ -47,6 +49,8 @@ enum class ThinFix { kOff, kOn, kAuto };
 enum class SliceRange {
   kScene,    ///< from the nearest to the farthest point of all objects
   kCasters,  ///< of the objects that cast
+  kAuto,     ///< kCasters where something that does not cast begins less than one slice of the scene's range
+             ///< behind the casters' far end: contact shadows need the finer slices; else kScene
 };
 enum class SliceCoverage {
   kBinary,  ///< a texel is covered or not, by its center
@@ -74,7 +78,7 @@ struct OcclusionOptions {
   /// that are open, or whose mean thickness 2·volume/area is below what a line of sight to the light's border
   /// moves sideways within one slice.
   ThinFix thin_fix = ThinFix::kOff;
-  SliceRange range = SliceRange::kScene;
+  SliceRange range = SliceRange::kAuto;
   SliceCoverage coverage = SliceCoverage::kBinary;
   SliceFaces faces = SliceFaces::kFront;
   /// Distance of the center of projection behind the light, scene units, > 0; infinity is orthographic;
@@ -85,7 +89,8 @@ struct OcclusionOptions {
 struct OcclusionFrame {
   std::vector<float> visibility;  ///< one per pixel of the surface; 1 where nothing is seen
   std::vector<StageTime> stages;
-  nlohmann::json counts;  ///< slices used, frustum, bytes
+  nlohmann::json counts;                 ///< slices used, frustum, bytes
+  std::vector<TexturePicture> textures;  ///< coverage of each slice in use, from the light on
 };
 
 class OcclusionTextures {
@@ -95,8 +100,9 @@ class OcclusionTextures {
   ~OcclusionTextures();
   /// Everything is made anew for the scene's light, disk or rectangle: slices, prefilters, lookups. The light
   /// must have an extent. Nothing behind its plane casts, and what is closer to it than 1/8192 of the scene
-  /// is cut off. Throws UsageError for options outside their range.
-  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options);
+  /// is cut off. Throws UsageError for options outside their range, Cancelled.
+  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                        const Progress& progress = {});
 
  private:
   struct Impl;

@@ -123,6 +123,7 @@ struct Renderer::State {
   std::unique_ptr<DBuffer> d_buffer;
   std::unique_ptr<OcclusionTextures> occlusion;
   gl::Backend backend{};
+  std::vector<TexturePicture> textures;  ///< of the frame under way
 
   /// The context that the options ask for; what was made with another goes away.
   gl::Context& context_for(const RenderOptions& options);
@@ -157,8 +158,11 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
   }
   d_buffer->set_surface(surface);
   clock.finish("upload_surface");
-  DBufferFrame frame = d_buffer->render(scene.light, options.d_buffer);
+  report(options.progress, 0.0);
+  DBufferFrame frame = d_buffer->render(scene.light, options.d_buffer, options.progress);
   for (const StageTime& s : frame.stages) clock.add(s);
+  if (options.keep_textures) textures = d_buffer->textures();
+  clock.restart();
   stats["renderer"] = context->renderer();
   stats["counts"] = frame.counts;
   stats["options"] = {{"dbuffer_size", options.d_buffer.size},
@@ -203,7 +207,8 @@ std::vector<float> Renderer::State::by_occlusion_textures(const RenderOptions& o
     clock.restart();  // one-time set-up, not a stage
   }
   const OcclusionOptions& o = options.occlusion;
-  OcclusionFrame frame = occlusion->render(surface, o);
+  OcclusionFrame frame = occlusion->render(surface, o, options.progress);
+  if (options.keep_textures) textures = std::move(frame.textures);
   for (const StageTime& s : frame.stages) clock.add(s);
   stats["renderer"] = context->renderer();
   stats["counts"] = frame.counts;
@@ -267,9 +272,13 @@ RenderResult Renderer::render_frame(const RenderOptions& options) {
                {"counts", nlohmann::json::object()}};
   out.surface = make_surface_buffer(state_->scene, state_->rays, options.width, options.height);
   clock.finish("surface_buffer");
+  report(options.progress, 0.0);
+  state_->textures.clear();
   const Seen seen = state_->see(options, out.surface, clock, out.stats);
+  report(options.progress, 1.0);
   out.image = shade(state_->scene, out.surface, seen.visibility, options.threads, seen.region);
   clock.finish("shading");
+  out.textures = std::move(state_->textures);
   out.stages = clock.stages();
   for (const StageTime& s : out.stages) out.frame_ms += s.milliseconds;
   std::size_t faces = 0;

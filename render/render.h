@@ -40,7 +40,8 @@ struct RenderOptions {
   DBufferOptions d_buffer;
   SilhouetteOptions silhouette;
   OcclusionOptions occlusion;
-  Progress progress;
+  bool keep_textures = false;  ///< RenderResult::textures is wanted
+  Progress progress;           ///< asked between stages and in the long ones
 };
 
 struct RenderResult {
@@ -49,6 +50,7 @@ struct RenderResult {
   std::vector<StageTime> stages;  ///< in order
   double frame_ms = 0.0;          ///< all stages that a new frame needs (no file output, no one-time set-up)
   nlohmann::json stats;           ///< what --stats writes
+  std::vector<TexturePicture> textures;  ///< on request, of the D-buffer or the occlusion textures
 };
 
 RenderResult render(const Scene& scene, const RenderOptions& options);

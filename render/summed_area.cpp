@@ -1,6 +1,7 @@
 #include "render/summed_area.h"
 
 namespace penumbra::detail {
+
 SummedArea::SummedArea(std::span<const std::uint8_t> texels, int size) : size_(size) {
   const auto n = static_cast<std::size_t>(size), stride = n + 1;
   sums_.resize(stride * stride);
@@ -14,6 +15,12 @@ SummedArea::SummedArea(std::span<const std::uint8_t> texels, int size) : size_(s
       out[i] = below[i] + row;
     }
   }
+}
+
+PENUMBRA_VECTOR_CLONES
+void SummedArea::covered(const TexelBoxes& boxes, double* __restrict out) const {
+  const Table table{sums_.data(), size_};
+  for (std::size_t i = 0; i < boxes.count; ++i) out[i] = table.covered(boxes[i]);
 }
 
 }  // namespace penumbra::detail

@@ -5,7 +5,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+
+#include "render/vector_clones.h"
 
 namespace penumbra::detail {
 
@@ -17,8 +21,22 @@ struct TexelBox {
   bool empty() const { return !(x0 < x1 && y0 < y1); }
 };
 
+/// Boxes that are asked for together, by their sides.
+struct TexelBoxes {
+  static constexpr std::size_t kMost = 256;
+  std::size_t count = 0;
+  alignas(64) std::array<double, kMost> x0, y0, x1, y1;
+  TexelBox operator[](std::size_t i) const { return {x0[i], y0[i], x1[i], y1[i]}; }
+};
+
+/// One box after the other, for filters that cannot be asked for several at a time.
+template <class Filter>
+void covered_each(const Filter& filter, const TexelBoxes& boxes, double* out) {
+  for (std::size_t i = 0; i < boxes.count; ++i) out[i] = filter.covered(boxes[i]);
+}
+
 /// The part within a texture of `size` × `size` texels; empty() where there is none.
-inline TexelBox clipped(const TexelBox& b, double size) {
+PENUMBRA_INLINE TexelBox clipped(const TexelBox& b, double size) {
   return {std::clamp(b.x0, 0.0, size), std::clamp(b.y0, 0.0, size), std::clamp(b.x1, 0.0, size),
           std::clamp(b.y1, 0.0, size)};
 }

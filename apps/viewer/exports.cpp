@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/scene_volumes.h"
+#include "volumes/checks.h"
 #include "volumes/detail/vectors.h"
 #include "volumes/volumes.h"
 
@@ -26,7 +27,7 @@ std::string export_volumes(const std::filesystem::path& folder, const State& sta
     const Classification classes = classify_faces(mesh, scene.light);
     sheets.push_back(extrude_sheets(mesh, scene.light, find_silhouettes(mesh, classes), options));
     penumbra.push_back(extrude_penumbra(mesh, scene.light, classes, options));
-    umbra.push_back(extrude_umbra(mesh, scene.light, classes, options));
+    umbra.push_back(convex_umbra(mesh, scene.light, classes, options));
   }
   const std::string stem = state.path.stem().string();
   write_shadow_mesh(folder / (stem + "-sheets.ply"), merge(sheets));

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "apps/scene_volumes.h"
+#include "volumes/checks.h"
 #include "volumes/volumes.h"
 
 namespace penumbra::viewer {
@@ -110,7 +111,7 @@ class Builder {
         triangle(out_.sheets, sheets.positions, sheets.triangles[t], sheet_color(sheets.tags[t].kind));
     }
     if (wanted_.penumbra) volume(extrude_penumbra(mesh, light, classes, options), {255, 150, 40, 0});
-    if (wanted_.umbra) volume(extrude_umbra(mesh, light, classes, options), {70, 110, 255, 0});
+    if (wanted_.umbra) volume(convex_umbra(mesh, light, classes, options), {70, 110, 255, 0});
   }
 
   const Scene& scene_;

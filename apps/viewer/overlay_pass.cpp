@@ -38,6 +38,23 @@ void main() {
 }
 )";
 
+/// Where sheets and volumes end: distance from a plane, in the geometry's coordinates.
+struct Cut {
+  Vec3 normal;
+  double offset, most;
+};
+
+Cut cut_of(const State& state, const OverlayGeometry& g) {
+  const Overlays& o = state.overlays;
+  if (o.cut_axis == CutAxis::kLight) {
+    const Vec3 normal = light_frame(state.light).w;
+    return {normal, glm::dot(g.origin - state.light.center, normal), o.cut * g.reach};
+  }
+  Vec3 normal(0.0);
+  normal[static_cast<int>(o.cut_axis) - static_cast<int>(CutAxis::kX)] = 1.0;
+  return {normal, g.bound, o.cut < 1.0 ? o.cut * 2.0 * g.bound : 3e38};
+}
+
 }  // namespace
 
 OverlayPass::OverlayPass(const gl::Functions& gl)
@@ -89,10 +106,9 @@ void OverlayPass::draw(const State& state, int width, int height) const {
   const double distance = glm::length(camera.eye), far = distance + 3.0 * g.bound;
   const double near = std::max(1e-3 * g.bound, distance - 3.0 * g.bound);
   const std::array<float, 16> matrix = Projection(camera, width, height).clip_matrix(near, far);
-  const Vec3 normal = light_frame(state.light).w;
-  const float plane[4] = {static_cast<float>(normal.x), static_cast<float>(normal.y),
-                          static_cast<float>(normal.z),
-                          static_cast<float>(glm::dot(g.origin - state.light.center, normal))};
+  const Cut cut = cut_of(state, g);
+  const float plane[4] = {static_cast<float>(cut.normal.x), static_cast<float>(cut.normal.y),
+                          static_cast<float>(cut.normal.z), static_cast<float>(cut.offset)};
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Enable(GL_DEPTH_TEST);
@@ -112,7 +128,7 @@ void OverlayPass::draw(const State& state, int width, int height) const {
   gl_.DepthMask(GL_FALSE);
   gl_.Uniform1f(program_.uniform("nearer"), 1e-5f);
   draw_list(faces_, GL_TRIANGLES);
-  gl_.Uniform1f(program_.uniform("cut"), static_cast<float>(state.overlays.cut * g.reach));
+  gl_.Uniform1f(program_.uniform("cut"), static_cast<float>(cut.most));
   draw_list(sheets_, GL_TRIANGLES);
   gl_.Uniform1f(program_.uniform("cut"), 3e38f);
   gl_.Uniform1f(program_.uniform("nearer"), 4e-4f);

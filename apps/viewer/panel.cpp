@@ -81,6 +81,21 @@ void method_widgets(const char* label, RenderOptions& options, int& revision, Pl
   ImGui::PopID();
 }
 
+void shown_widgets(State& state, Places& places) {
+  int shown = static_cast<int>(state.shown);
+  constexpr const char* kNames[] = {"picture", "visibility", "certified"};
+  constexpr const char* kHelp[] = {
+      "colours", "the fraction of the disk that is seen, black to white",
+      "by the methods silhouette and rays: yellow lit, orange partial, blue umbra, grey not certified"};
+  for (int i = 0; i < 3; ++i) {
+    if (i) ImGui::SameLine();
+    ImGui::RadioButton(kNames[i], &shown, i);
+    note_place(places, std::string("show ") + kNames[i]);
+    help_on_hover(kHelp[i]);
+  }
+  state.shown = static_cast<Shown>(shown);
+}
+
 void methods_section(State& state, Places& places) {
   if (!ImGui::CollapsingHeader("Method", ImGuiTreeNodeFlags_DefaultOpen)) return;
   int arrangement = static_cast<int>(state.arrangement);
@@ -99,6 +114,7 @@ void methods_section(State& state, Places& places) {
   if (state.arrangement == Arrangement::kDifference)
     slider(places, "scale", state.difference_scale, 0.005, 1.0, "+-%.3f visibility",
            ImGuiSliderFlags_Logarithmic);
+  if (state.arrangement != Arrangement::kDifference) shown_widgets(state, places);
   slider(places, "exposure", state.exposure, -6.0, 6.0, "%+.1f stops");
 }
 
@@ -140,6 +156,18 @@ void overlay_box(const char* label, Command command, bool& flag, Places& places)
   help_on_hover(std::string(key_of(command).help) + " (" + key_of(command).shown + ")");
 }
 
+void cut_widgets(Overlays& o, Places& places) {
+  slider(places, "cut", o.cut, 0.0, 1.0, "%.2f of the way");
+  int axis = static_cast<int>(o.cut_axis);
+  constexpr const char* kNames[] = {"along the light", "along x", "along y", "along z"};
+  for (int i = 0; i < 4; ++i) {
+    if (i % 2) ImGui::SameLine(150);
+    ImGui::RadioButton(kNames[i], &axis, i);
+    note_place(places, kNames[i]);
+  }
+  o.cut_axis = static_cast<CutAxis>(axis);
+}
+
 void overlays_section(State& state, Places& places) {
   if (!ImGui::CollapsingHeader("Geometry", ImGuiTreeNodeFlags_DefaultOpen)) return;
   Overlays& o = state.overlays;
@@ -156,7 +184,11 @@ void overlays_section(State& state, Places& places) {
   overlay_box("penumbra", Command::kPenumbraVolume, o.penumbra, places);
   ImGui::SameLine(110);
   overlay_box("umbra", Command::kUmbraVolume, o.umbra, places);
-  if (o.sheets || o.penumbra || o.umbra) slider(places, "cut", o.cut, 0.0, 1.0, "%.2f of the way");
+  ImGui::SameLine(210);
+  ImGui::Checkbox("textures", &o.textures);
+  note_place(places, "textures");
+  help_on_hover("what the D-buffer or the occlusion textures hold, as the light sees it");
+  if (o.sheets || o.penumbra || o.umbra) cut_widgets(o, places);
 }
 
 void stage_bars(const RenderResult& result) {

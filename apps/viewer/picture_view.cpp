@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -12,6 +13,8 @@
 
 namespace penumbra::viewer {
 namespace {
+
+constexpr int kTextureSide = 112;  // pixels
 
 void label(ImDrawList& list, ImVec2 at, const std::string& text) {
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -44,14 +47,18 @@ void draw_scale(ImDrawList& list, float bottom, double scale) {
 }  // namespace
 
 void PictureView::update(const State& state, std::shared_ptr<const Frame> frame) {
-  if (frame == frame_ && exposure_ == state.exposure && scale_ == state.difference_scale) return;
+  if (frame == frame_ && exposure_ == state.exposure && scale_ == state.difference_scale &&
+      shown_ == state.shown)
+    return;
   frame_ = std::move(frame);
   exposure_ = state.exposure;
   scale_ = state.difference_scale;
+  shown_ = state.shown;
   if (!frame_ || frame_->sides.empty()) return;
-  left_.upload(picture_of(frame_->sides.front(), exposure_));
+  left_.upload(picture_of(frame_->sides.front(), shown_, exposure_));
+  textures_.upload(mosaic_of(frame_->sides.front().result->textures, kTextureSide));
   if (frame_->sides.size() < 2) return;
-  right_.upload(picture_of(frame_->sides.back(), exposure_));
+  right_.upload(picture_of(frame_->sides.back(), shown_, exposure_));
   difference_.upload(difference_of(frame_->sides.front(), frame_->sides.back(), scale_));
 }
 
@@ -82,6 +89,27 @@ void PictureView::draw_picture(const State& state) const {
   list.PopClipRect();
 }
 
+// At the lower right, each with its name.
+void PictureView::draw_textures(ImDrawList& list, float width, float height) const {
+  if (!frame_ || frame_->sides.empty()) return;
+  const std::vector<TexturePicture>& all = frame_->sides.front().result->textures;
+  if (all.empty())
+    return label(list, {width - 330, height - 24}, "textures: with dbuffer or occlusion-textures");
+  const int count = static_cast<int>(all.size()), columns = std::min(4, count),
+            rows = (count + columns - 1) / columns;
+  constexpr float kPitch = kTextureSide + 1;
+  const ImVec2 low{width - static_cast<float>(columns) * kPitch - 6,
+                   height - static_cast<float>(rows) * kPitch - 6};
+  list.AddImage(
+      textures_.id(), low,
+      {low.x + static_cast<float>(columns) * kPitch - 1, low.y + static_cast<float>(rows) * kPitch - 1});
+  for (int i = 0; i < count; ++i)
+    label(list,
+          {low.x + static_cast<float>(i % columns) * kPitch + 6,
+           low.y + static_cast<float>(i / columns) * kPitch + 4},
+          all[static_cast<std::size_t>(i)].name);
+}
+
 void PictureView::draw_marks(const State& state, const Pointer& pointer, bool settled) const {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const auto width = static_cast<float>(state.left.width), height = static_cast<float>(state.left.height);
@@ -102,6 +130,7 @@ void PictureView::draw_marks(const State& state, const Pointer& pointer, bool se
               ": blue too dark, red too bright");
     draw_scale(list, height, state.difference_scale);
   }
+  if (state.overlays.textures) draw_textures(list, width, height);
   if (!settled && frame_ && !frame_->final)
     label(list, {10, height - 54},
           frame_->reduction > 1 ? "draft 1/" + std::to_string(frame_->reduction) : std::string("draft"));

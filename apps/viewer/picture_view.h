@@ -8,11 +8,13 @@
 #include "apps/viewer/render_worker.h"
 #include "apps/viewer/state.h"
 
+struct ImDrawList;
+
 namespace penumbra::viewer {
 
 class PictureView {
  public:
-  explicit PictureView(const gl::Functions& gl) : left_(gl), right_(gl), difference_(gl) {}
+  explicit PictureView(const gl::Functions& gl) : left_(gl), right_(gl), difference_(gl), textures_(gl) {}
   /// Uploads what has changed since the last call.
   void update(const State& state, std::shared_ptr<const Frame> frame);
   /// The pictures, into ImGui's background.
@@ -22,9 +24,12 @@ class PictureView {
   const Frame* frame() const { return frame_.get(); }
 
  private:
-  PictureTexture left_, right_, difference_;
+  void draw_textures(ImDrawList& list, float width, float height) const;
+
+  PictureTexture left_, right_, difference_, textures_;
   std::shared_ptr<const Frame> frame_;
   double exposure_ = 0.0, scale_ = 0.0;
+  Shown shown_ = Shown::kPicture;
 };
 
 }  // namespace penumbra::viewer

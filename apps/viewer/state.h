@@ -11,6 +11,16 @@ namespace penumbra::viewer {
 
 enum class Arrangement { kSingle, kSplit, kDifference };
 
+/// What of the picture is shown.
+enum class Shown {
+  kPicture,     ///< colours
+  kVisibility,  ///< the fraction of the disk, black to white
+  kRegion,      ///< what is certified: yellow lit, orange partial, blue umbra; grey nothing
+};
+
+/// Across what sheets and volumes are cut.
+enum class CutAxis { kLight, kX, kY, kZ };
+
 /// What is drawn over the picture.
 struct Overlays {
   bool light = true;         ///< the light's disk and handles
@@ -20,8 +30,10 @@ struct Overlays {
   bool sheets = false;       ///< facets and cone patches of both boundaries
   bool penumbra = false;     ///< the closed volume
   bool umbra = false;        ///< the closed volume
-  double cut = 1.0;          ///< sheets and volumes are drawn up to this part of the way from the light's
-                             ///< plane to the scene's far end
+  bool textures = false;     ///< what the D-buffer or the occlusion textures hold
+  double cut = 1.0;  ///< sheets and volumes are drawn up to this part of the way: from the light's plane to
+                     ///< the scene's far end, or along an axis through everything
+  CutAxis cut_axis = CutAxis::kLight;
   bool geometry() const { return faces || silhouettes || band || sheets || penumbra || umbra; }
 };
 
@@ -33,6 +45,7 @@ struct State {
   Camera camera;
   RenderOptions left, right;  ///< right: the second method of split and difference
   Arrangement arrangement = Arrangement::kSingle;
+  Shown shown = Shown::kPicture;
   double divider = 0.5;           ///< part of the width that shows the left method
   double exposure = 0.0;          ///< stops
   double difference_scale = 0.1;  ///< visibility that saturates the colours

@@ -16,13 +16,21 @@ constexpr std::array kArrangements{std::pair(Arrangement::kSingle, "single"),
                                    std::pair(Arrangement::kSplit, "split"),
                                    std::pair(Arrangement::kDifference, "difference")};
 
+constexpr std::array kShown{std::pair(Shown::kPicture, "picture"),
+                            std::pair(Shown::kVisibility, "visibility"),
+                            std::pair(Shown::kRegion, "certified")};
+
+constexpr std::array kCutAxes{std::pair(CutAxis::kLight, "light"), std::pair(CutAxis::kX, "x"),
+                              std::pair(CutAxis::kY, "y"), std::pair(CutAxis::kZ, "z")};
+
 constexpr std::array kFlags{std::pair("light", &Overlays::light),
                             std::pair("faces", &Overlays::faces),
                             std::pair("silhouettes", &Overlays::silhouettes),
                             std::pair("band", &Overlays::band),
                             std::pair("sheets", &Overlays::sheets),
                             std::pair("penumbra", &Overlays::penumbra),
-                            std::pair("umbra", &Overlays::umbra)};
+                            std::pair("umbra", &Overlays::umbra),
+                            std::pair("textures", &Overlays::textures)};
 
 nlohmann::json to_json(const Vec3& v) {
   return {v.x, v.y, v.z};
@@ -50,6 +58,10 @@ nlohmann::json viewer_settings(const State& state) {
                          {"probe", state.probe}};
   for (const auto& [value, name] : kArrangements)
     if (value == state.arrangement) json["arrangement"] = name;
+  for (const auto& [value, name] : kShown)
+    if (value == state.shown) json["shown"] = name;
+  for (const auto& [value, name] : kCutAxes)
+    if (value == state.overlays.cut_axis) json["cut_axis"] = name;
   for (const auto& [name, flag] : kFlags) json["overlays"][name] = state.overlays.*flag;
   return json;
 }
@@ -109,6 +121,10 @@ void read_viewer_settings(const nlohmann::json& settings, State& state) {
   read(settings.at("right"), state.right);
   for (const auto& [value, name] : kArrangements)
     if (settings.value("arrangement", "") == name) state.arrangement = value;
+  for (const auto& [value, name] : kShown)
+    if (settings.value("shown", "") == name) state.shown = value;
+  for (const auto& [value, name] : kCutAxes)
+    if (settings.value("cut_axis", "") == name) state.overlays.cut_axis = value;
   state.divider = settings.value("divider", state.divider);
   state.exposure = settings.value("exposure", state.exposure);
   state.difference_scale = settings.value("difference_scale", state.difference_scale);

@@ -37,6 +37,10 @@ nlohmann::json report(const StatusInput& input) {
       {"against", name_of(state.right.method)},
       {"arrangement", static_cast<int>(state.arrangement)},
       {"divider", state.divider},
+      {"shown", static_cast<int>(state.shown)},
+      {"cut", state.overlays.cut},
+      {"cut_axis", static_cast<int>(state.overlays.cut_axis)},
+      {"minimised", input.minimised},
       {"picture", {state.left.width, state.left.height}},
       {"light",
        {{"center", to_json(state.light.center)},
@@ -51,7 +55,8 @@ nlohmann::json report(const StatusInput& input) {
                    {"reduction", input.frame->reduction},
                    {"refining", input.frame->refining},
                    {"milliseconds", input.frame->milliseconds},
-                   {"trouble", input.frame->trouble}};
+                   {"trouble", input.frame->trouble},
+                   {"per_second", input.per_second}};
   for (const Side& side : input.frame->sides) json["frame"]["rays"].push_back(side.rays);
   return json;
 }

@@ -18,6 +18,8 @@ struct StatusInput {
   const Frame* frame;  ///< may be null
   const std::map<std::string, PicturePoint>& places;
   const std::string& message;
+  bool minimised;
+  int per_second;  ///< pictures that arrived in the last second
 };
 
 class StatusFile {

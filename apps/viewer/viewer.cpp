@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <utility>
 
+#include "apps/failures.h"
 #include "apps/messages.h"
 #include "apps/outputs.h"
 #include "apps/viewer/actions.h"
@@ -16,6 +19,7 @@
 #include "apps/viewer/picture_view.h"
 #include "apps/viewer/pointer.h"
 #include "apps/viewer/probe_view.h"
+#include "apps/viewer/random_input.h"
 #include "apps/viewer/status.h"
 #include "apps/viewer/window.h"
 #include "apps/viewer/wishes.h"
@@ -31,6 +35,7 @@ class Viewer {
 
  private:
   void wait();
+  void play();
   void draw();
   void fit_picture();
   void obey(Command command);
@@ -39,6 +44,7 @@ class Viewer {
   void open(const std::filesystem::path& path);
   void open_neighbour(int step);
   void take_screenshot_when_due();
+  bool too_soon() const;
   bool settled() const { return wishes_.settled(view_.frame()); }
   void draw_help();
   void draw_overlays();
@@ -58,8 +64,10 @@ class Viewer {
   Panel panel_;
   Costs costs_;
   StatusFile status_;
+  std::optional<RandomInput> random_input_;
   bool show_panel_, show_help_ = false;
-  int frames_ = 0;          ///< drawn so far
+  int frames_ = 0;                                 ///< drawn so far
+  std::chrono::steady_clock::time_point drawn_{};  ///< when the last was
   int frames_to_draw_ = 3;  ///< ImGui needs some after each event until everything is in place
   std::size_t file_ = 0;
 };
@@ -78,15 +86,20 @@ Viewer::Viewer(ViewerOptions options, State state, std::string message)
       probe_(window_.functions(), &Window::wake),
       exports_(&Window::wake),
       status_(options_.status),
-      show_panel_(!options_.plain) {}
+      show_panel_(!options_.plain) {
+  if (options_.random_input) random_input_.emplace(*options_.random_input, options_.seconds, options_.files);
+}
 
 int Viewer::run() {
   while (!window_.closing()) {
     wait();
+    play();
     for (const std::string& dropped : window_.take_dropped()) open(dropped);
     if (window_.minimised()) continue;
     const auto frame = worker_.latest();
-    if (frame && frame.get() != view_.frame()) {
+    const bool news = frame && frame.get() != view_.frame();
+    if (!news && too_soon()) continue;
+    if (news) {
       costs_.add(*frame);
       frames_to_draw_ = std::max(frames_to_draw_, 1);
     }
@@ -94,11 +107,23 @@ int Viewer::run() {
     window_.begin_frame();
     draw();
     window_.draw_frame();
+    drawn_ = std::chrono::steady_clock::now();
     ++frames_;
     take_screenshot_when_due();
     window_.show_frame();
   }
-  return 0;
+  if (!random_input_) return apps::kFine;
+  apps::complain(random_input_->summary());
+  return random_input_->memory_stayed() ? apps::kFine : apps::kFailed;
+}
+
+// What tests do to the window from inside.
+void Viewer::play() {
+  if (!options_.drop.empty() && settled()) window_.drop(std::exchange(options_.drop, {}));
+  if (!random_input_) return;
+  if (random_input_->done()) return window_.close();
+  if (const auto command = random_input_->act(window_)) obey(*command);
+  frames_to_draw_ = 1;
 }
 
 // Sleeps where nothing is to be done: until an event, or until it is time to ask for the full picture.
@@ -113,6 +138,13 @@ void Viewer::wait() {
                : options_.screenshot.empty() ? -1.0
                                              : 0.03);
   frames_to_draw_ = 2;
+}
+
+// While a draft is under way the window waits for it, but not for long: without a GPU drawing the window
+// takes as much of the processor as a draft does.
+bool Viewer::too_soon() const {
+  constexpr auto kLongestWait = std::chrono::milliseconds(45);
+  return wishes_.restless() && std::chrono::steady_clock::now() - drawn_ < kLongestWait;
 }
 
 void Viewer::fit_picture() {
@@ -150,7 +182,9 @@ void Viewer::draw() {
                   .holding = holding,
                   .frame = view_.frame(),
                   .places = panel_.places(),
-                  .message = message_});
+                  .message = message_,
+                  .minimised = window_.minimised(),
+                  .per_second = costs_.per_second()});
 }
 
 void Viewer::keys() {

@@ -26,7 +26,8 @@ Examples:
 H in the window lists the keys. Exit codes: 0 fine, 1 failed (no display, say), 2 bad usage, 3 bad mesh or scene.)";
 
 struct Words {
-  std::string size, method = name_of(RenderOptions{}.method), against = "reference", view = "single";
+  std::string size, method = name_of(RenderOptions{}.method), against = "reference", view = "single",
+                    shown = "picture";
   std::vector<std::string> overlays;
 };
 
@@ -37,7 +38,9 @@ bool& overlay_of(const std::string& word, Overlays& overlays) {
   if (word == "sheets") return overlays.sheets;
   if (word == "penumbra") return overlays.penumbra;
   if (word == "umbra") return overlays.umbra;
-  throw UsageError("unknown overlay '" + word + "': use faces, silhouettes, band, sheets, penumbra or umbra");
+  if (word == "textures") return overlays.textures;
+  throw UsageError("unknown overlay '" + word +
+                   "': use faces, silhouettes, band, sheets, penumbra, umbra or textures");
 }
 
 Arrangement arrangement_of(const std::string& word) {
@@ -45,6 +48,13 @@ Arrangement arrangement_of(const std::string& word) {
   if (word == "split") return Arrangement::kSplit;
   if (word == "difference") return Arrangement::kDifference;
   throw UsageError("unknown view '" + word + "': use single, split or difference");
+}
+
+Shown shown_of(const std::string& word) {
+  if (word == "picture") return Shown::kPicture;
+  if (word == "visibility") return Shown::kVisibility;
+  if (word == "certified") return Shown::kRegion;
+  throw UsageError("--show '" + word + "': use picture, visibility or certified");
 }
 
 void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
@@ -57,9 +67,11 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
   app.add_option("--against", words.against, "The second method of split and difference")
       ->capture_default_str();
   apps::add_exposure_option(app, options.state.exposure, "Stops by which the picture is brighter");
+  app.add_option("--show", words.shown, "picture, visibility or certified (methods silhouette and rays)")
+      ->capture_default_str();
   app.add_flag("--plain", options.plain, "Nothing but the picture: no panel, no handles");
   app.add_option("--overlay", words.overlays,
-                 "faces, silhouettes, band, sheets, penumbra or umbra; may be repeated")
+                 "faces, silhouettes, band, sheets, penumbra, umbra or textures; may be repeated")
       ->take_all()
       ->expected(1);
   app.add_flag("--probe", options.state.probe, "Start with the probe");
@@ -74,6 +86,10 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
   app.add_option("--output", options.output, "Folder for what is saved from the window")
       ->type_name("FOLDER")
       ->capture_default_str();
+  // For tests, not in --help.
+  app.add_option("--random-input", options.random_input)->group("");
+  app.add_option("--seconds", options.seconds)->group("");
+  app.add_option("--drop", options.drop)->group("");
   apps::add_method_options(app, options.state.left);
 }
 
@@ -86,6 +102,7 @@ void check(ViewerOptions& options, const Words& words, bool method_given, bool v
   options.state.left.method = method_of(words.method);
   options.state.right.method = method_of(words.against);
   options.state.arrangement = arrangement_of(words.view);
+  options.state.shown = shown_of(words.shown);
   for (const std::string& word : words.overlays) overlay_of(word, options.state.overlays) = true;
   if (method_given) options.method = options.state.left.method;
   if (view_given) options.view = options.state.arrangement;

@@ -1,8 +1,10 @@
 // The command line of penumbra-viewer.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "apps/viewer/state.h"
@@ -17,9 +19,12 @@ struct ViewerOptions {
   std::optional<Arrangement> view;
   bool plain = false;  ///< neither panel nor handles
   std::filesystem::path screenshot;
-  int frames = 1;                      ///< window frames before the screenshot
-  std::filesystem::path status;        ///< written whenever what it says changes
-  std::filesystem::path output = ".";  ///< folder for pictures and states that are saved
+  int frames = 1;                             ///< window frames before the screenshot
+  std::filesystem::path status;               ///< written whenever what it says changes
+  std::optional<std::uint64_t> random_input;  ///< seed of a hand that does anything
+  double seconds = 60.0;                      ///< of random input
+  std::vector<std::string> drop;              ///< dropped on the window once its first picture is final
+  std::filesystem::path output = ".";         ///< folder for pictures and states that are saved
 };
 
 /// Runs the whole program: exit code as apps/failures.h has them.

@@ -32,6 +32,17 @@ void set_style() {
   style.WindowBorderSize = 0.0f;
 }
 
+// After the backend has read the real mouse.
+void apply(const Window::Hand& hand) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.MousePos = {hand.x, hand.y};
+  std::copy(std::begin(hand.down), std::end(hand.down), std::begin(io.MouseDown));
+  io.MouseWheel = hand.wheel;
+  io.KeyShift = hand.shift;
+  io.KeysDown[GLFW_KEY_ENTER] = hand.enter;
+  if (hand.character) io.AddInputCharacter(hand.character);
+}
+
 }  // namespace
 
 Window::Window(int width, int height, const std::string& title) {
@@ -59,8 +70,7 @@ Window::Window(int width, int height, const std::string& title) {
   }
   glfwSetWindowUserPointer(window_, this);
   glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
-    auto& dropped = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_;
-    dropped.insert(dropped.end(), paths, paths + count);
+    static_cast<Window*>(glfwGetWindowUserPointer(window))->drop({paths, paths + count});
   });
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
     if (action == GLFW_PRESS)
@@ -101,6 +111,16 @@ void Window::set_size(int width, int height) {
   glfwSetWindowSize(window_, width, height);
 }
 
+void Window::drop(const std::vector<std::string>& paths) {
+  dropped_.insert(dropped_.end(), paths.begin(), paths.end());
+}
+
+std::pair<int, int> Window::size() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  return {width, height};
+}
+
 std::vector<std::string> Window::take_dropped() {
   return std::exchange(dropped_, {});
 }
@@ -123,6 +143,7 @@ void Window::wake() {
 void Window::begin_frame() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  if (hand_) apply(*hand_);
   ImGui::NewFrame();
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/gl/functions.h"
@@ -25,6 +27,10 @@ class Window {
   bool minimised() const;
   void set_title(const std::string& title);
   void set_size(int width, int height);
+  /// As if these files were dropped on the window.
+  void drop(const std::vector<std::string>& paths);
+  /// Of the picture and the panel, pixels.
+  std::pair<int, int> size() const;
   /// Files dropped since the last call.
   std::vector<std::string> take_dropped();
 
@@ -39,6 +45,15 @@ class Window {
   void wait(double seconds);
   static void wake();
 
+  /// A hand in place of the mouse, from the next frame on.
+  struct Hand {
+    float x = 0.0f, y = 0.0f, wheel = 0.0f;
+    bool down[3] = {};  ///< left, right, middle
+    bool shift = false, enter = false;
+    unsigned character = 0;  ///< typed; 0: none
+  };
+  void use_hand(const Hand& hand) { hand_ = hand; }
+
   void begin_frame();  ///< polls nothing; clears and starts ImGui's frame
   void draw_frame();   ///< everything that ImGui was told, into the back buffer
   void show_frame();   ///< swaps
@@ -50,6 +65,7 @@ class Window {
   gl::Functions gl_;
   std::vector<std::string> dropped_;
   std::vector<Key> keys_;
+  std::optional<Hand> hand_;
 };
 
 }  // namespace penumbra::viewer

@@ -11,7 +11,8 @@ bool same_picture(const State& a, const State& b) {
          a.light.radius == b.light.radius && a.radiance == b.radiance && a.camera.eye == b.camera.eye &&
          a.camera.target == b.camera.target && a.camera.up == b.camera.up &&
          a.camera.fov_y_degrees == b.camera.fov_y_degrees && a.left.width == b.left.width &&
-         a.left.height == b.left.height && a.two_sided() == b.two_sided() && a.revision == b.revision;
+         a.left.height == b.left.height && a.two_sided() == b.two_sided() && a.revision == b.revision &&
+         a.overlays.textures == b.overlays.textures;
 }
 
 bool same_geometry(const State& a, const State& b) {
@@ -47,6 +48,7 @@ void Wishes::ask(const State& state, bool draft) {
                 .sides = {state.left},
                 .moving = draft,
                 .refine_to = state.two_sided() ? kRefineTo : 0};
+  job.sides.front().keep_textures = state.overlays.textures;
   if (state.two_sided()) {
     job.sides.push_back(state.right);
     job.sides.back().width = state.left.width;

@@ -1,8 +1,10 @@
 #include "tests/bench/occlusion_bench.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <memory>
 #include <string>
 
@@ -53,6 +55,10 @@ void time_prefilters() {
   }
 }
 
+double least(const std::vector<double>& values) {
+  return *std::min_element(values.begin(), values.end());
+}
+
 Scene bench_scene(const std::string& name) {
   return load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
 }
@@ -81,18 +87,25 @@ void time_radii(const std::string& name) {
     renderers.push_back(std::make_unique<Renderer>(scenes[i], options));
     renderers.back()->render_frame(options);
   }
-  std::vector<std::vector<double>> frames(radii.size()), lookups(radii.size()), ratios(radii.size());
+  std::vector<std::vector<double>> frames(radii.size()), lookups(radii.size()), ratios(radii.size()),
+      work(radii.size());
   for (int round = 0; round < kRounds; ++round)
     for (std::size_t i = 0; i < radii.size(); ++i) {
+      const std::clock_t start = std::clock();
       const RenderResult frame = renderers[i]->render_frame(options);
+      work[i].push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
       frames[i].push_back(frame.frame_ms);
       lookups[i].push_back(visibility_ms(frame));
       ratios[i].push_back(frame.frame_ms / frames[0].back());
     }
-  std::printf("%s, radius → ms a frame (of it lookups; median of paired ratios to the first):", name.c_str());
+  std::printf(
+      "%s, radius → ms a frame (of it lookups; median of paired ratios to the first; ratio of least "
+      "processor "
+      "times):",
+      name.c_str());
   for (std::size_t i = 0; i < radii.size(); ++i)
-    std::printf("  %.1f → %.0f (%.0f; %.2f)", radii[i], median(frames[i]), median(lookups[i]),
-                median(ratios[i]));
+    std::printf("  %.1f → %.0f (%.0f; %.2f; %.2f)", radii[i], median(frames[i]), median(lookups[i]),
+                median(ratios[i]), least(work[i]) / least(work[0]));
   std::printf("\n");
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "render/mip_pyramid.h"
 #include "render/n_buffer.h"
@@ -76,6 +77,30 @@ TEST(SummedArea, IsExactForEveryBox) {
     const double whole = size;
     EXPECT_EQ(table.covered({0, 0, whole, whole}), covered_by_definition(texels, size, {0, 0, whole, whole}));
   }
+}
+
+// Vectorised or one after the other.
+TEST(OcclusionFilters, AreTheSameForManyBoxesAtOnce) {
+  constexpr std::uint64_t kSeed = 8;
+  Random random(kSeed);
+  constexpr int kSize = 64;
+  const Texels texels = noise(random, kSize);
+  detail::TexelBoxes boxes;
+  for (boxes.count = 0; boxes.count < detail::TexelBoxes::kMost - 3; ++boxes.count) {
+    const TexelBox box = any_box(random, kSize);
+    std::tie(boxes.x0[boxes.count], boxes.y0[boxes.count]) = std::tuple(box.x0, box.y0);
+    std::tie(boxes.x1[boxes.count], boxes.y1[boxes.count]) = std::tuple(box.x1, box.y1);
+  }
+  const auto check = [&](const auto& filter, const char* name) {
+    std::vector<double> all(boxes.count + 1, -1.0);
+    filter.covered(boxes, all.data());
+    for (std::size_t i = 0; i < boxes.count; ++i)
+      ASSERT_EQ(all[i], filter.covered(boxes[i])) << name << " " << i << ", seed " << kSeed;
+    EXPECT_EQ(all.back(), -1.0) << name << ": no more than was asked for";
+  };
+  check(MipPyramid(texels, kSize), "mipmap");
+  check(NBuffer(texels, kSize), "nbuffer");
+  check(SummedArea(texels, kSize), "sat");
 }
 
 // 1024² times 255 is 2^28: float has 24 bits.

@@ -210,6 +210,19 @@ TEST(OcclusionTextures, BehindTheLightIsDarkAndWithoutCastersIsTheHorizon) {
   EXPECT_GT(behind, 100);
 }
 
+// Casters that stand on what they shadow need slices of their own; those far above it do not.
+TEST(OcclusionTextures, AutomaticRangeIsTheCastersWhereTheyTouch) {
+  for (const auto& [name, range] :
+       {std::pair("torus-medium", SliceRange::kScene), {"knot1-medium", SliceRange::kCasters}}) {
+    const Scene scene = testing::data_scene(name);
+    const View view(scene, 80, 60);
+    const Values automatic = draw(scene, view.surface, {.range = SliceRange::kAuto});
+    const auto other = range == SliceRange::kScene ? SliceRange::kCasters : SliceRange::kScene;
+    EXPECT_EQ(automatic, draw(scene, view.surface, {.range = range})) << name;
+    EXPECT_NE(automatic, draw(scene, view.surface, {.range = other})) << name;
+  }
+}
+
 TEST(OcclusionTextures, SumHidesMoreThanProductAndMaximumLess) {
   const Scene scene = testing::data_scene("foliage-medium");
   const View view(scene, 160, 120);
