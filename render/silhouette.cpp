@@ -332,7 +332,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   Band band;
   rays.impl().arena.execute([&] { band = make_band(scene, light); });
   clock.finish("band");
-  const BandTree tree(band);
+  const BandTree tree = rays.impl().arena.execute([&] { return BandTree(band); });
   clock.finish("band_tree");
 
   tbb::enumerable_thread_specific<Workspace> spaces;
