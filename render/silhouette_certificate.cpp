@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "render/silhouette_domain.h"
 #include "render/vector_clones.h"
@@ -11,6 +12,7 @@ namespace penumbra::detail {
 namespace {
 
 constexpr double kHair = 0x1p-23;
+constexpr std::size_t kFewEdges = 6;  // one by one: vectors would not be filled
 
 /// How a projected edge lies; the numbers are in the order in which they are looked for.
 enum State : std::int64_t {
@@ -107,13 +109,17 @@ void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slac
   out.segments.clear();
   out.inside = 0;
   out.certain = true;
-  if (list.size() == 0) return;
+  out.crossing.clear();
+  if (list.size() <= kFewEdges) {
+    for (std::size_t i = 0; i < list.size(); ++i) see_one(list.edge(list.place(i)), x, horizon, slack, out);
+    std::swap(out.segments, out.crossing);
+    return;
+  }
   sift(list, x, out.sifted);
   const std::size_t count = out.sifted.places.size();
   for (auto& column : out.ends) column.resize(std::max(column.size(), count));
   out.states.resize(std::max(out.states.size(), count));
   out.segments.resize(count);
-  out.crossing.clear();
   const double reach = 1.0 + slack;
   const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
                *by = out.ends[3].data();
