@@ -64,6 +64,9 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
   add_choice(command, "--dbuffer-center", options.center, center_tests(),
              "How it is told whether the light's center is hidden: by a ray, or by the texel's first surface")
       ->group(group);
+  add_choice(command, "--dbuffer-check", options.check, entry_checks(),
+             "Whether a few rays a pixel may drop wrong entries (edge, exact and one entry only)")
+      ->group(group);
 }
 
 void add_silhouette_options(CLI::App& command, SilhouetteOptions& options) {

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -15,6 +16,7 @@ namespace penumbra {
 namespace {
 
 constexpr std::size_t kLanes = 16;
+constexpr int kBlock = 4;  // pixels a side that share a packet
 /// What a cut reads as that only the ray towards the light finds: the two directions round differently.
 constexpr float kAlmostThere = 1.0f - 0x1p-20f;
 
@@ -94,15 +96,20 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
   for (auto* list : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) list->assign(padded, 0.0f);
   pixel_.reserve(count);
-  for (std::uint32_t i = 0; i < surface.size(); ++i) {
-    if (!surface.hit(i)) continue;
+  const auto add = [&](std::uint32_t i) {
+    if (!surface.hit(i)) return;
     const Vec3& n = surface.normal[i];
     const glm::vec3 p(rays.frame().to_local(surface.position[i]) + kRayOffset * n);
     const std::size_t k = pixel_.size();
     x_[k] = p.x, y_[k] = p.y, z_[k] = p.z;
     nx_[k] = static_cast<float>(n.x), ny_[k] = static_cast<float>(n.y), nz_[k] = static_cast<float>(n.z);
     pixel_.push_back(i);
-  }
+  };
+  for (int top = 0; top < surface.height; top += kBlock)
+    for (int left = 0; left < surface.width; left += kBlock)
+      for (int y = top; y < std::min(top + kBlock, surface.height); ++y)
+        for (int x = left; x < std::min(left + kBlock, surface.width); ++x)
+          add(static_cast<std::uint32_t>(y * surface.width + x));
 }
 
 std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
@@ -152,6 +159,71 @@ std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
   };
   rays_.impl().arena.execute(
       [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 64), trace); });
+  return out;
+}
+
+namespace {
+
+/// Points of the disk that are asked in turn, in radii: three across what lies beyond a chord whose middle is
+/// `aim`, and three round the rest.
+std::array<glm::vec2, 6> places_to_ask(const glm::vec2& aim) {
+  const float size = glm::length(aim);
+  const glm::vec2 to = aim / std::max(size, 1e-6f), across(-to.y, to.x);
+  const float half = 0.6f * std::sqrt(std::max(0.0f, 1.0f - size * size)), rest = 0.75f;
+  return {aim, aim + half * across, aim - half * across, -rest * to, rest * across, -rest * across};
+}
+
+}  // namespace
+
+std::vector<char> CenterRays::refuted(const DiskLight& light, std::span<const glm::vec2> aims,
+                                      std::span<const float> cuts) const {
+  std::vector<char> out(pixels_, 0);
+  std::vector<std::uint32_t> asked;  // places in pixel_
+  for (std::uint32_t k = 0; k < pixel_.size(); ++k)
+    if (glm::length(aims[pixel_[k]]) <= 1.0f) asked.push_back(k);
+  const RayFrame& frame = rays_.frame();
+  const LightFrame axes = light_frame(light);
+  const double radius = light.radius * frame.scale;
+  const glm::vec3 center(frame.to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
+  const auto ask = [&](std::span<const std::uint32_t> lanes) {
+    std::array<glm::vec2, 6> places[kLanes];
+    alignas(64) int open[kLanes] = {};  // -1: nothing speaks for the entry yet
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+      places[lane] = places_to_ask(aims[pixel_[lanes[lane]]]);
+      open[lane] = -1;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    for (std::size_t turn = 0; turn < places[0].size(); ++turn) {
+      alignas(64) RTCRay16 ray{};
+      alignas(64) int wanted[kLanes] = {};
+      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+        const std::uint32_t k = lanes[lane];
+        const glm::vec2 at = places[lane][turn];
+        const glm::vec3 from(x_[k], y_[k], z_[k]), way = center + at.x * u + at.y * v - from;
+        ray.org_x[lane] = from.x, ray.org_y[lane] = from.y, ray.org_z[lane] = from.z;
+        ray.dir_x[lane] = way.x, ray.dir_y[lane] = way.y, ray.dir_z[lane] = way.z;
+        ray.tfar[lane] = 1.0f, ray.mask[lane] = ~0u;
+        // What is below the horizon says nothing.
+        const bool above = way.x * nx_[k] + way.y * ny_[k] + way.z * nz_[k] > 0.0f;
+        wanted[lane] = open[lane] && above ? -1 : 0;
+      }
+      rtcOccluded16(wanted, rays_.impl().casters, &context, &ray);
+      bool any = false;
+      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
+        const bool blocked = ray.tfar[lane] < 0.0f, hidden = cuts[pixel_[lanes[lane]]] < 1.0f;
+        if (wanted[lane] && blocked != hidden) open[lane] = 0;
+        any = any || open[lane];
+      }
+      if (!any) break;
+    }
+    for (std::size_t lane = 0; lane < lanes.size(); ++lane) out[pixel_[lanes[lane]]] = open[lane] != 0;
+  };
+  rays_.impl().arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, (asked.size() + kLanes - 1) / kLanes, [&](std::size_t p) {
+      ask(std::span(asked).subspan(p * kLanes, std::min(kLanes, asked.size() - p * kLanes)));
+    });
+  });
   return out;
 }
 

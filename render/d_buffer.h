@@ -37,6 +37,11 @@ enum class CenterTest {
   kDepth,  ///< the depth of the first surface in the texel, with a bias in the height above the receiver's
            ///< plane
 };
+enum class EntryCheck {
+  kRays,  ///< up to six rays a pixel where an entry applies, mostly one: if all say what the center says, the
+          ///< entry is dropped. Against leaks and penumbrae of edges that something else hides.
+  kNone,
+};
 enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps
 
 /// The words for these.
@@ -44,6 +49,7 @@ std::span<const NamedValue<DBufferContents>> d_buffer_contents();
 std::span<const NamedValue<VisibilityCurve>> visibility_curves();
 std::span<const NamedValue<Conflict>> conflicts();
 std::span<const NamedValue<CenterTest>> center_tests();
+std::span<const NamedValue<EntryCheck>> entry_checks();
 
 struct DBufferOptions {
   int size = 1024;  ///< texels a side of each target, 16 to 8192
@@ -52,6 +58,8 @@ struct DBufferOptions {
   VisibilityCurve curve = VisibilityCurve::kExact;
   Conflict conflict = Conflict::kNearest;
   CenterTest center = CenterTest::kRay;  ///< how it is told whether the light's center is hidden
+  EntryCheck check =
+      EntryCheck::kRays;  ///< what drops wrong entries; needs kEdge, one entry, kExact and kRay
 };
 
 struct DBufferFrame {
@@ -70,7 +78,8 @@ class DBuffer {
   void set_surface(const SurfaceBuffer& surface);
   /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.
   /// Throws UsageError for a size or entries outside their range and before set_surface, SystemError where
-  /// OpenGL fails. Cost O(faces + band + texels + pixels), and one or two rays a pixel with CenterTest::kRay.
+  /// OpenGL fails. Cost O(faces + band + texels + pixels), and one or two rays a pixel with CenterTest::kRay,
+  /// as many again where entries apply with EntryCheck::kRays.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options);
 
  private:

@@ -1,9 +1,7 @@
 // The D-buffer's own geometry: facets and cone sectors as seen from the light's center.
 //
-// In the coordinates (u, v, w) = (x/z, y/z, 1/z) of the light's frame everything is flat: the plane that
-// touches the disk of radius r at rim angle φ is w = (cos φ u + sin φ v + κ)/r, of slope 1/r for every edge,
-// and the boundary at a vertex is a circular cone of that slope. So depth is linear on the screen and needs
-// no per-pixel correction (the 2004 paper, section 3.2, interpolates distances and accepts the error).
+// In the coordinates of entry_footprint.h everything is flat, so depth is linear on the screen and needs no
+// per-pixel correction (the 2004 paper, section 3.2, interpolates distances and accepts the error).
 #pragma once
 
 #include <cstdint>
@@ -12,20 +10,9 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "render/facet_reach.h"
-#include "volumes/supports.h"
+#include "render/entry_footprint.h"
 
 namespace penumbra::detail {
-
-/// A change from world to the light's frame: axes u, v, w of the light, origin its center, lengths times a
-/// power of two.
-struct LightSpace {
-  LightSpace(const DiskLight& light, double scale_factor);
-  Vec3 to_light(const Vec3& world) const;
-  LightFrame axes;
-  Vec3 center;
-  double scale, radius;  ///< radius: of the disk, in this space
-};
 
 struct EntryVertex {
   float u, v, w;
@@ -40,25 +27,18 @@ struct EntryGeometry {
   std::vector<glm::vec4> records;
 };
 
-/// One caster and where its shadow is bounded.
+/// One caster's boundary, and who reads of it.
 struct EntrySource {
-  const TriangleMesh& mesh;
-  const LightSpace& space;
+  const EntryFootprints& footprints;
   const Supports& supports;
   const std::vector<GapFace>& gaps;
   const FacetReach& reach;
+  const ReceiverGrid& receivers;
 };
 
-struct EntryGeometryOptions {
-  double near_depth;   ///< edges are cut at this depth
-  double far_weight;   ///< 1/z of the farthest receiver: facets end there
-  double dilation;     ///< in (u, v): facets grow by this to all sides, to reach every texel they touch
-  bool grows_with_uv;  ///< times 1 + |uv|, as the texels of a hemicube do
-};
-
-/// Adds one caster. Cost O(facets + cone segments).
-void append_entry_geometry(const EntrySource& source, const EntryGeometryOptions& options,
-                           EntryGeometry& out);
+/// Adds one caster; what no receiver reads is left out, and what goes on behind them cut short. Cost
+/// O(facets + cone segments).
+void append_entry_geometry(const EntrySource& source, EntryGeometry& out);
 
 /// Puts triangles in the order of their own numbers, nearest to the light first, so that which of two at the
 /// same depth is kept depends on where they are and not on how the mesh lists them. Cost O(n log n).

@@ -24,13 +24,13 @@ struct Layer {
   Layers id, depth;
 };
 
-/// First and, where two entries are kept, second entries of one kind. With one entry the second is a single
-/// texel that is never read.
-struct EntryLayers {
-  EntryLayers(const gl::Functions& gl, int size, int count, int entries)
-      : first(gl, size, count), second(gl, entries > 1 ? size : 1, count) {}
-  Layer first, second;
+/// Kinds of entries, each with a layer for every target.
+enum class EntryKind {
+  kPenumbra,  ///< penumbra entries in front of the first surface
+  kAbove,     ///< umbra entries in front of the last surface
+  kBelow,     ///< umbra entries behind the last surface
 };
+inline constexpr int kEntryKinds = 3;
 
 struct DBufferLayers {
   DBufferLayers(const gl::Functions& gl, int size_, int count_, int entries_)
@@ -39,15 +39,16 @@ struct DBufferLayers {
         entries(entries_),
         occluder(gl, size_, count_),
         last(gl, GL_DEPTH_COMPONENT32F, size_, count_),
-        penumbra(gl, size_, count_, entries_),
-        above(gl, size_, count_, entries_),
-        below(gl, size_, count_, entries_) {}
+        first_entries(gl, size_, kEntryKinds * count_),
+        second_entries(gl, entries_ > 1 ? size_ : 1, kEntryKinds * count_) {}
+  /// The layer of `first_entries` and `second_entries` for one kind and target.
+  int layer_of(EntryKind kind, int target) const { return static_cast<int>(kind) * count + target; }
+
   int size, count, entries;
-  Layer occluder;        ///< the first surface that the light's center sees
-  Layers last;           ///< depth of the last surface that faces it
-  EntryLayers penumbra;  ///< penumbra entries in front of the first surface
-  EntryLayers above;     ///< umbra entries in front of the last surface
-  EntryLayers below;     ///< umbra entries behind the last surface
+  Layer occluder;  ///< the first surface that the light's center sees
+  Layers last;     ///< depth of the last surface that faces it
+  Layer first_entries;
+  Layer second_entries;  ///< where only one is kept: a single texel that is never read
 
   std::size_t bytes() const {
     const auto texels =

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "render/caster_filter.h"
 #include "render/d_buffer.h"
 #include "render/d_buffer_geometry.h"
 #include "render/d_buffer_layers.h"
@@ -11,51 +13,50 @@
 
 namespace penumbra::detail {
 
-/// Nothing nearer to the light's plane than this (of the scene's size) is drawn: casters are cut there.
-inline constexpr double kNearDepth = 0x1p-13;
-
-/// One caster's place in the uploaded buffers.
-struct CasterRange {
-  std::uint32_t first_face;  ///< number of its first face over all objects of the scene
-  std::uint32_t first_index, index_count;
-  bool closed;
-  Bounds bounds;  ///< in the frame of the uploaded points
-};
-
 class DBufferPasses {
  public:
   explicit DBufferPasses(const gl::Functions& gl);
   /// Casters in a frame of the scene; once.
-  void upload_casters(const std::vector<glm::vec3>& points, const std::vector<std::uint32_t>& indices,
+  void upload_casters(std::vector<glm::vec3> points, std::vector<std::uint32_t> indices,
                       std::vector<CasterRange> casters);
   void upload_entries(const EntryGeometry& geometry);
-  /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame).
+  /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame). Where rays tell
+  /// which receivers see the light's center, only what those that do not will read.
   void draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
-                      const DBufferLayers& layers, const DBufferOptions& options);
+                      const ReceiverGrid& receivers, const DBufferLayers& layers,
+                      const DBufferOptions& options);
   void draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
                     const DBufferOptions& options);
   GLuint records() const { return record_texture_; }
 
  private:
-  enum class Against { kNothing, kFirst, kLast, kBehindLast };
+  /// The surface that entries are compared with, and on which side of it they have to lie.
+  enum class Against { kNothing, kBeforeFirst, kBeforeLast, kBehindLast };
   struct Entries {
     const gl::Object& vertices;
     std::size_t count;
   };
   void draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset);
-  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, const EntryLayers& into,
+  void draw_read_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset,
+                         const ReceiverGrid& receivers);
+  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
                  const Entries& entries, Against against, const DBufferOptions& options);
-  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, const Layer& into,
-                  const Layer* after, const Entries& entries, Against against, const DBufferOptions& options);
-  void set_filter(const Layers& surface, const Layer* after, Against against) const;
+  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
+                  bool second, const Entries& entries, Against against, const DBufferOptions& options);
+  const gl::Program& entry_program(int surface, bool peel);
+  void bind_filter(const gl::Program& program, const Layers& surface, const Layer& first) const;
   void set_target(const gl::Program& program, const Target& target) const;
   void attach(const Layer& layer, int index) const;
   void bind(int unit, GLenum kind, GLuint texture) const;
 
   const gl::Functions& gl_;
-  gl::Program occluder_program_, entry_program_, filtered_program_;
-  gl::Object caster_points_, caster_indices_, caster_array_, penumbra_vertices_, umbra_vertices_,
-      entry_array_, record_buffer_, record_texture_;
+  gl::Program occluder_program_;
+  std::unique_ptr<gl::Program> entry_programs_[3]
+                                              [2];  ///< by SURFACE and PEEL of the shader, made when needed
+  gl::Object caster_points_, caster_indices_, read_indices_, caster_array_, penumbra_vertices_,
+      umbra_vertices_, entry_array_, record_buffer_, record_texture_;
+  std::vector<glm::vec3> points_;
+  std::vector<std::uint32_t> indices_;
   std::vector<CasterRange> casters_;
   std::size_t penumbra_count_ = 0, umbra_count_ = 0;
 };

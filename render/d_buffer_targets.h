@@ -10,6 +10,9 @@
 
 namespace penumbra::detail {
 
+/// Nothing nearer to the light's plane than this (of the scene's size) is drawn: casters are cut there.
+inline constexpr double kNearDepth = 0x1p-13;
+
 struct Target {
   glm::dmat3 axes;               ///< light's frame → (right, up, forward)
   std::array<double, 4> window;  ///< left, right, bottom, top at forward distance 1

@@ -14,29 +14,28 @@ namespace {
 /// that counts.
 constexpr double kClearance = 2.0 * kRayOffset;
 /// A hit this much nearer than the edge hides it; nearer ones are the edge's own faces.
-constexpr double kHidden = 1.0 - 1e-3;
+constexpr float kHidden = 1.0f - 1e-3f;
 
 class Prober {
  public:
   Prober(const DiskLight& light, const RayScene& rays)
       : rays_(rays), axes_(light_frame(light)), center_(light.center), radius_(light.radius) {}
 
-  /// Reach of the ray from the rim at `angle` past `target` (world).
-  float reach(const Vec3& target, double angle, SupportKind kind) const {
-    const RayFrame& frame = rays_.frame();
-    const Vec3 tangent = axes_.v * std::cos(angle) - axes_.u * std::sin(angle);
-    const Vec3 contact = center_ + radius_ * (axes_.u * std::cos(angle) + axes_.v * std::sin(angle));
-    // The plane that touches the rim at the contact and passes the target; its normal points away from the
-    // disk.
-    Vec3 beyond = glm::cross(tangent, target - contact);
-    const double size = glm::length(beyond);
-    if (!(size > 0.0)) return std::numeric_limits<float>::infinity();
-    beyond = beyond / size;
-    if (glm::dot(beyond, contact - center_) < 0.0) beyond = -beyond;
-    const Vec3 lit = kind == SupportKind::kPenumbra ? -beyond : beyond;
-    const Vec3 from = frame.to_local(contact), past = frame.to_local(target) + kClearance * lit;
-    const double along = first_hit(from, past - from);
-    return along < kHidden ? 0.0f : static_cast<float>(along);
+  /// The way from the rim past a point.
+  struct Probe {
+    Vec3 target;   ///< world
+    double angle;  ///< of the contact on the rim
+  };
+
+  /// Reach of the ray from the rim past the target.
+  float reach(const Probe& probe, SupportKind kind) const {
+    RTCRayHit query{};
+    if (!aim(probe, kind, query.ray)) return std::numeric_limits<float>::infinity();
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(rays_.impl().casters, &context, &query);
+    return query.ray.tfar < kHidden ? 0.0f : query.ray.tfar;
   }
 
   /// Leaves of an edge that crosses the light's plane its part in front.
@@ -47,19 +46,27 @@ class Prober {
   }
 
  private:
-  double first_hit(const Vec3& from, const Vec3& direction) const {
-    RTCRayHit query{};
-    query.ray.org_x = static_cast<float>(from.x), query.ray.org_y = static_cast<float>(from.y);
-    query.ray.org_z = static_cast<float>(from.z);
-    query.ray.dir_x = static_cast<float>(direction.x), query.ray.dir_y = static_cast<float>(direction.y);
-    query.ray.dir_z = static_cast<float>(direction.z);
-    query.ray.tfar = std::numeric_limits<float>::infinity();
-    query.ray.mask = ~0u;
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(rays_.impl().casters, &context, &query);
-    return query.ray.tfar;
+  /// False where the contact lies on the target's own line along the rim.
+  bool aim(const Probe& probe, SupportKind kind, RTCRay& ray) const {
+    const RayFrame& frame = rays_.frame();
+    const Vec3 out = axes_.u * std::cos(probe.angle) + axes_.v * std::sin(probe.angle);
+    const Vec3 contact = center_ + radius_ * out;
+    // The plane that touches the rim at the contact and passes the target; its normal points away from the
+    // disk.
+    Vec3 beyond = glm::cross(glm::cross(axes_.w, out), probe.target - contact);
+    const double size = glm::length(beyond);
+    if (!(size > 0.0)) return false;
+    beyond = beyond / size;
+    if (glm::dot(beyond, out) < 0.0) beyond = -beyond;
+    const Vec3 lit = kind == SupportKind::kPenumbra ? -beyond : beyond;
+    const Vec3 from = frame.to_local(contact);
+    const Vec3 way = frame.to_local(probe.target) + kClearance * lit - from;
+    ray.org_x = static_cast<float>(from.x), ray.dir_x = static_cast<float>(way.x);
+    ray.org_y = static_cast<float>(from.y), ray.dir_y = static_cast<float>(way.y);
+    ray.org_z = static_cast<float>(from.z), ray.dir_z = static_cast<float>(way.z);
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0u;
+    return true;
   }
 
   const RayScene& rays_;
@@ -68,38 +75,45 @@ class Prober {
   const double radius_;
 };
 
+/// Over up to three places along an edge or round a sector, 0 to 1; infinity is not surpassed.
+template <class Reach>
+float farthest(int count, const Reach& reach_at) {
+  constexpr double kPlaces[] = {0.5, 0.1, 0.9};
+  float most = 0.0f;
+  for (int i = 0; i < count; ++i)
+    if (std::isfinite(most)) most = std::max(most, reach_at(kPlaces[i]));
+  return most;
+}
+
 }  // namespace
 
-FacetReach find_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
-                      const RayScene& rays) {
+void find_facet_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                      std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
   const Prober prober(light, rays);
-  FacetReach out;
-  out.facets.resize(supports.facets.size());
-  out.cones.resize(supports.cones.size());
-  const auto probe_facet = [&](std::size_t i) {
+  out.facets.assign(supports.facets.size(), 0.0f);
+  const auto probe = [&](std::size_t i) {
     const SupportFacet& f = supports.facets[i];
     const Edge& e = mesh.edges()[index(f.edge)];
     Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
     prober.cut_to_front(a, b);
-    float reach = 0.0f;
-    for (double t : {0.5, 0.1, 0.9})
-      if (std::isfinite(reach)) reach = std::max(reach, prober.reach(a + t * (b - a), f.rim_angle, f.kind));
-    out.facets[i] = reach;
+    out.facets[i] = farthest(probes[i], [&](double t) {
+      return prober.reach({a + t * (b - a), f.rim_angle}, f.kind);
+    });
   };
-  const auto probe_cone = [&](std::size_t i) {
+  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
+}
+
+void find_cone_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                     std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
+  const Prober prober(light, rays);
+  out.cones.assign(supports.cones.size(), 0.0f);
+  const auto probe = [&](std::size_t i) {
     const ConeSector& c = supports.cones[i];
-    float reach = 0.0f;
-    for (double t : {0.5, 0.1, 0.9})
-      if (std::isfinite(reach))
-        reach = std::max(reach, prober.reach(mesh.position(c.vertex),
-                                             c.from_angle + t * (c.to_angle - c.from_angle), c.kind));
-    out.cones[i] = reach;
+    out.cones[i] = farthest(probes[i], [&](double t) {
+      return prober.reach({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
+    });
   };
-  rays.impl().arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe_facet);
-    tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe_cone);
-  });
-  return out;
+  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });
 }
 
 }  // namespace penumbra::detail

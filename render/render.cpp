@@ -167,6 +167,7 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
                       {"visibility", name_in(visibility_curves(), options.d_buffer.curve)},
                       {"conflict", name_in(conflicts(), options.d_buffer.conflict)},
                       {"center", name_in(center_tests(), options.d_buffer.center)},
+                      {"check", name_in(entry_checks(), options.d_buffer.check)},
                       {"backend", gl::name_of(options.backend)}};
   return std::move(frame.visibility);
 }

@@ -1,8 +1,3 @@
-// A plane that touches the disk of radius r at rim angle φ is n·p = r with n = (cos φ, sin φ, κ): the disk
-// lies where n·p ≤ r. Through a vertex v it has κ = (r - cos φ v.x - sin φ v.y) / v.z, so that the side of q
-// is, times v.z,
-//   A cos φ + B sin φ + C,   A = d.x v.z - v.x d.z,  B = d.y v.z - v.y d.z,  C = r d.z,  d = q - v:
-// positive beyond the plane, negative on the disk's side. Everything below is this one expression.
 #include "volumes/supports.h"
 
 #include <tbb/blocked_range.h>
@@ -14,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
-#include <tuple>
 
 #include "volumes/tangent_planes.h"
 
@@ -28,27 +22,6 @@ double wrap(double angle) {
   return turned < 0.0 ? turned + 2.0 * kPi : turned;
 }
 
-struct SideOfPlane {
-  double a, b, c;
-  SideOfPlane(const Vec3& v, const Vec3& q, double r) {
-    const Vec3 d = q - v;
-    a = d.x * v.z - v.x * d.z;
-    b = d.y * v.z - v.y * d.z;
-    c = r * d.z;
-  }
-  /// Positive: q is beyond the plane through v that touches the disk at angle; scaled to about the sine of
-  /// q's elevation.
-  double at(double angle) const {
-    const double size = std::hypot(a, b) + std::abs(c);
-    return size > 0.0 ? (a * std::cos(angle) + b * std::sin(angle) + c) / size : 0.0;
-  }
-};
-
-/// Rounding in `SideOfPlane::at`, so that coplanar neighbours count as lying on the plane.
-constexpr double kOnPlane = 1e-11;
-
-constexpr double kSharpestTurn = 0.7 * kPi;
-
 /// Which kind of facet a tangent plane carries, by the sides of the one or two opposite vertices (positive:
 /// the disk's). An edge between coplanar faces carries none.
 std::optional<SupportKind> facet_kind(Sign left, std::optional<Sign> right) {
@@ -59,69 +32,13 @@ std::optional<SupportKind> facet_kind(Sign left, std::optional<Sign> right) {
   return std::nullopt;
 }
 
-/// Grows with the angle of (x, y) from -kHalfTurn to kHalfTurn, opposite directions differ by kHalfTurn, and
-/// no transcendental function is called.
-constexpr double kHalfTurn = 2.0;
-double diamond_angle(double x, double y) {
-  const double size = std::abs(x) + std::abs(y);
-  if (!(size > 0.0)) return 0.0;
-  return x >= 0.0 ? y / size : y >= 0.0 ? 2.0 - y / size : -2.0 - y / size;
-}
-
-/// A vertex and what is around it, in the light's frame.
-struct Star {
-  struct Spoke {
-    Vec3 end, left;
-    std::optional<Vec3> right;  ///< apexes of the faces beside it
-  };
-  Vec3 center{0.0};
-  std::vector<Spoke> spokes;
-};
-
-/// Memory that one thread uses again for every vertex.
-struct Scratch {
-  Star star;
-  std::vector<std::array<double, 2>> wedges;
-  std::vector<std::tuple<double, std::uint32_t, std::uint32_t>> links;
-};
-
-/// An end of a facet at a vertex.
-struct FacetEnd {
-  VertexId vertex;
-  SupportKind kind;
-  double angle;
-  std::uint32_t facet;
-  bool leaves;  ///< the directed facet begins here
-};
-
-class Finder {
+class FacetFinder {
  public:
-  Finder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light)
-      : mesh_(mesh),
-        rings_(rings),
-        light_(light),
-        frame_(light_frame(light)),
-        center_(light.center),
-        r_(light.radius) {}
-
-  Supports run(const Silhouettes& silhouettes) {
-    find_facets(silhouettes.band);
-    find_corners();
-    add_full_cones(silhouettes);
-    return std::move(out_);
-  }
-
- private:
-  Vec3 local(VertexId v) const {
-    const Vec3 p = mesh_.position(v) - center_;
-    return {glm::dot(p, frame_.u), glm::dot(p, frame_.v), glm::dot(p, frame_.w)};
-  }
+  FacetFinder(const TriangleMesh& mesh, const DiskLight& light)
+      : mesh_(mesh), light_(light), frame_(light_frame(light)) {}
 
   /// The facets of one edge: its tangent planes that support the faces there.
-  struct EdgeFacets {
-    std::array<std::optional<SupportKind>, 2> kinds;
-    std::array<Vec3, 2> normals;
-  };
+  using EdgeFacets = std::array<std::optional<SupportFacet>, 2>;
   EdgeFacets facets_of(EdgeId id) const {
     EdgeFacets out;
     const Edge& e = mesh_.edges()[index(id)];
@@ -135,193 +52,41 @@ class Finder {
       const Sign left = side_of_tangent_plane(a, b, mesh_.position(e.left_apex), which, light_);
       std::optional<Sign> right;
       if (!e.is_boundary()) right = side_of_tangent_plane(a, b, mesh_.position(e.right_apex), which, light_);
-      out.kinds[i] = facet_kind(left, right);
-      out.normals[i] = (*planes)[i].normal;
+      if (const auto kind = facet_kind(left, right)) out[i] = facet_on(id, *kind, which, (*planes)[i].normal);
     }
     return out;
   }
 
-  void find_facets(std::span<const EdgeId> band) {
-    std::vector<EdgeFacets> found(band.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, band.size(), 512), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) found[i] = facets_of(band[i]);
-    });
-    for (std::size_t i = 0; i < band.size(); ++i)
-      for (const Tangent which : {Tangent::kFirst, Tangent::kSecond})
-        if (const auto kind = found[i].kinds[static_cast<std::size_t>(which)])
-          add_facet(band[i], *kind, which, found[i].normals[static_cast<std::size_t>(which)]);
-  }
-
   /// `normal` is the plane's, towards the disk; the contact is where the rim goes farthest against it.
-  void add_facet(EdgeId id, SupportKind kind, Tangent which, const Vec3& normal) {
+  SupportFacet facet_on(EdgeId id, SupportKind kind, Tangent which, const Vec3& normal) const {
     const double angle = wrap(std::atan2(-glm::dot(normal, frame_.v), -glm::dot(normal, frame_.u)));
     // The plane through the edge and a receiver beyond it has the normal (a - x) × (b - a), which is against
     // `normal` for kFirst. It has to point to the lit side: the disk's for a penumbra, the other for an
     // umbra.
-    const bool flipped = (which == Tangent::kFirst) == (kind == SupportKind::kPenumbra);
-    const auto facet = static_cast<std::uint32_t>(out_.facets.size());
-    out_.facets.push_back({id, kind, flipped, angle});
-    const Edge& e = mesh_.edges()[index(id)];
-    ends_.push_back({e.from, kind, angle, facet, !flipped});
-    ends_.push_back({e.to, kind, angle, facet, flipped});
+    return {id, kind, (which == Tangent::kFirst) == (kind == SupportKind::kPenumbra), angle};
   }
 
-  /// Links facets and finds cones, vertex by vertex.
-  void find_corners() {
-    std::sort(ends_.begin(), ends_.end(), [](const FacetEnd& x, const FacetEnd& y) {
-      return std::tie(x.vertex, x.kind, x.angle, x.facet) < std::tie(y.vertex, y.kind, y.angle, y.facet);
-    });
-    std::vector<std::span<const FacetEnd>> corners;
-    for (std::size_t first = 0; first < ends_.size();) {
-      std::size_t last = first;
-      while (last < ends_.size() && ends_[last].vertex == ends_[first].vertex &&
-             ends_[last].kind == ends_[first].kind)
-        ++last;
-      corners.emplace_back(ends_.data() + first, last - first);
-      first = last;
-    }
-    // A facet has one end at each vertex, so that no two corners write to the same link.
-    std::vector<std::vector<ConeSector>> cones(corners.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, corners.size(), 256), [&](const auto& range) {
-      Scratch scratch;
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        link_ends(corners[i], scratch);
-        if (local(corners[i][0].vertex).z > 0.0) find_cones(corners[i], scratch, cones[i]);
-      }
-    });
-    for (const auto& found : cones) out_.cones.insert(out_.cones.end(), found.begin(), found.end());
-  }
-
-  /// Facets that arrive at the vertex go on with facets that leave it, the smallest turns first. Beyond
-  /// kSharpestTurn two ends belong to different parts of the contour (the far sides of a saddle), not to one
-  /// corner.
-  void link_ends(std::span<const FacetEnd> ends, Scratch& scratch) {
-    auto& links = scratch.links;
-    links.clear();
-    for (const FacetEnd& arriving : ends)
-      for (const FacetEnd& leaving : ends) {
-        if (arriving.leaves || !leaving.leaves) continue;
-        if (out_.facets[arriving.facet].edge == out_.facets[leaving.facet].edge)
-          continue;  // both sides of a knife edge
-        const double turn = std::abs(std::remainder(leaving.angle - arriving.angle, 2.0 * kPi));
-        if (turn < kSharpestTurn) links.push_back({turn, arriving.facet, leaving.facet});
-      }
-    std::sort(links.begin(), links.end());
-    for (const auto& [turn, arriving, leaving] : links) {
-      if (out_.facets[arriving].next != kNoFacet || out_.facets[leaving].previous != kNoFacet) continue;
-      out_.facets[arriving].next = leaving;
-      out_.facets[leaving].previous = arriving;
-    }
-  }
-
-  void find_cones(std::span<const FacetEnd> ends, Scratch& scratch, std::vector<ConeSector>& cones) const {
-    if (ends.size() < 2) return;
-    find_star(ends[0].vertex, scratch.star);
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-      const FacetEnd& from = ends[i];
-      const FacetEnd& to = ends[(i + 1) % ends.size()];
-      const double to_angle = i + 1 < ends.size() ? to.angle : to.angle + 2.0 * kPi;
-      if (to_angle <= from.angle) continue;
-      const double middle = 0.5 * (from.angle + to_angle);
-      const bool supported = from.kind == SupportKind::kPenumbra ? ring_is_beyond(scratch.star, middle)
-                                                                 : star_covers_disk_side(middle, scratch);
-      if (supported) cones.push_back({from.vertex, from.kind, from.angle, to_angle, from.facet, to.facet});
-    }
-  }
-
-  /// Vertices of the band at which no facet ends, since every edge there points into the disk: cones all
-  /// round.
-  void add_full_cones(const Silhouettes& silhouettes) {
-    std::vector<bool> done(mesh_.positions().size(), false);
-    for (const FacetEnd& end : ends_)
-      if (end.kind == SupportKind::kPenumbra) done[index(end.vertex)] = true;
-    Star star;
-    for (EdgeId id : silhouettes.band) {
-      const Edge& e = mesh_.edges()[index(id)];
-      for (VertexId v : {e.from, e.to}) {
-        if (done[index(v)]) continue;
-        done[index(v)] = true;
-        if (!(local(v).z > 0.0) || !(r_ > 0.0)) continue;
-        find_star(v, star);
-        if (ring_is_beyond(star, 0.0))
-          out_.cones.push_back({v, SupportKind::kPenumbra, 0.0, 2.0 * kPi, kNoFacet, kNoFacet});
-      }
-    }
-  }
-
-  void find_star(VertexId v, Star& star) const {
-    star.center = local(v);
-    star.spokes.clear();
-    for (EdgeId id : rings_.edges(v)) {
-      const Edge& e = mesh_.edges()[index(id)];
-      Star::Spoke spoke{local(e.from == v ? e.to : e.from), local(e.left_apex), std::nullopt};
-      if (!e.is_boundary()) spoke.right = local(e.right_apex);
-      star.spokes.push_back(spoke);
-    }
-  }
-
-  /// All neighbours lie beyond the center's tangent plane at the angle: nothing of the star hides the disk's
-  /// first point.
-  bool ring_is_beyond(const Star& star, double angle) const {
-    return std::none_of(star.spokes.begin(), star.spokes.end(), [&](const Star::Spoke& s) {
-      return SideOfPlane(star.center, s.end, r_).at(angle) < -kOnPlane;
-    });
-  }
-
-  /// Looking from behind the star towards the contact, it covers the whole half on the disk's side: the
-  /// corner is reflex, and the first of the light appears at the vertex.
-  bool star_covers_disk_side(double angle, Scratch& scratch) const {
-    const Vec3 p = scratch.star.center;
-    const Vec3 contact{r_ * std::cos(angle), r_ * std::sin(angle), 0.0};
-    const Vec3 beyond{std::cos(angle), std::sin(angle),
-                      (r_ - std::cos(angle) * p.x - std::sin(angle) * p.y) / p.z};
-    const Vec3 along = glm::cross(p - contact, beyond);
-    const Vec3 across = beyond * glm::length(along), ahead = along * glm::length(beyond);
-    const auto bearing = [&](const Vec3& q) {
-      return diamond_angle(glm::dot(ahead, q - p), glm::dot(across, q - p));
-    };
-    auto& wedges = scratch.wedges;
-    wedges.clear();
-    for (const Star::Spoke& s : scratch.star.spokes) {
-      const double end = bearing(s.end);
-      add_wedge(end, bearing(s.left), wedges);
-      if (s.right) add_wedge(end, bearing(*s.right), wedges);
-    }
-    std::sort(wedges.begin(), wedges.end());
-    double covered = -kHalfTurn;  // the disk's side is (-kHalfTurn, 0)
-    for (const auto& [low, high] : wedges)
-      if (low <= covered + 1e-9) covered = std::max(covered, high);
-    const bool covers_all =
-        covered >= kHalfTurn - 1e-9;  // an inner vertex of the star's picture: no boundary at all
-    return covered >= -1e-9 && !covers_all;
-  }
-
-  /// The wedge between two bearings, the short way round.
-  static void add_wedge(double from, double to, std::vector<std::array<double, 2>>& wedges) {
-    if (to < from) std::swap(from, to);
-    if (to - from <= kHalfTurn) {
-      wedges.push_back({from, to});
-    } else {
-      wedges.push_back({-kHalfTurn, from});
-      wedges.push_back({to, kHalfTurn});
-    }
-  }
-
+ private:
   const TriangleMesh& mesh_;
-  const VertexRings& rings_;
   const DiskLight& light_;
   const LightFrame frame_;
-  const Vec3 center_;
-  const double r_;
-  std::vector<FacetEnd> ends_;
-  Supports out_;
 };
 
 }  // namespace
 
-Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
-                       const Silhouettes& silhouettes) {
-  return Finder(mesh, rings, light).run(silhouettes);
+std::vector<SupportFacet> find_support_facets(const TriangleMesh& mesh, const DiskLight& light,
+                                              const Silhouettes& silhouettes) {
+  const FacetFinder finder(mesh, light);
+  std::vector<FacetFinder::EdgeFacets> found(silhouettes.band.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, found.size(), 512), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      found[i] = finder.facets_of(silhouettes.band[i]);
+  });
+  std::vector<SupportFacet> out;
+  for (const auto& facets : found)
+    for (const auto& facet : facets)
+      if (facet) out.push_back(*facet);
+  return out;
 }
 
 std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const DiskLight& light,

@@ -11,6 +11,7 @@
 // casters), not sufficient.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mesh/vertex_rings.h"
@@ -61,6 +62,15 @@ struct Supports {
 /// front of the light's plane count; one that crosses it counts with its part in front. Cost O(band · ring).
 Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
                        const Silhouettes& silhouettes);
+
+/// The same in two steps, for callers that can tell which facets are of use. First the facets, not linked
+/// yet. Cost O(band).
+std::vector<SupportFacet> find_support_facets(const TriangleMesh& mesh, const DiskLight& light,
+                                              const Silhouettes& silhouettes);
+/// Then links and cone sectors at the vertices where a facet ends that is in use (not 0; one number each);
+/// none at other vertices, and no cones all round. Cost O(facets in use · ring).
+void link_support_facets(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+                         std::span<const char> in_use, Supports& supports);
 
 /// In order of steps from the umbra facets, then of facet. Cost O(F).
 std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const DiskLight& light,

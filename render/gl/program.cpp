@@ -20,9 +20,18 @@ std::string expand_includes(std::string text) {
   return text;
 }
 
-GLuint compile(const Functions& gl, const Program::Stage& stage) {
-  const std::string text =
-      expand_includes(std::string(stage.text.empty() ? shader_source(stage.file) : stage.text));
+/// Puts definitions after the line of `#version`, which has to be the first.
+std::string define(std::string text, std::initializer_list<Program::Definition> definitions) {
+  std::string lines;
+  for (const Program::Definition& d : definitions)
+    lines += "#define " + std::string(d.name) + " " + std::to_string(d.value) + "\n";
+  return text.insert(text.find('\n') + 1, lines);
+}
+
+GLuint compile(const Functions& gl, const Program::Stage& stage,
+               std::initializer_list<Program::Definition> definitions) {
+  const std::string source(stage.text.empty() ? shader_source(stage.file) : stage.text);
+  const std::string text = define(expand_includes(source), definitions);
   const char* pointer = text.c_str();
   const GLuint shader = gl.CreateShader(stage.type);
   gl.ShaderSource(shader, 1, &pointer, nullptr);
@@ -38,11 +47,12 @@ GLuint compile(const Functions& gl, const Program::Stage& stage) {
 
 }  // namespace
 
-Program::Program(const Functions& gl, std::initializer_list<Stage> stages)
+Program::Program(const Functions& gl, std::initializer_list<Stage> stages,
+                 std::initializer_list<Definition> definitions)
     : gl_(gl), id_(gl.CreateProgram()) {
   std::string names;
   for (const Stage& stage : stages) {
-    const GLuint shader = compile(gl, stage);
+    const GLuint shader = compile(gl, stage, definitions);
     gl.AttachShader(id_, shader);
     gl.DeleteShader(shader);  // kept alive by the program
     names += std::string(stage.file) + " ";

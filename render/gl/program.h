@@ -13,13 +13,20 @@ namespace penumbra::gl {
 /// A linked program. Shader files may name others by a line `#include "name.glsl"` (one level).
 class Program {
  public:
+  /// What the stages find defined, `#define name value`. Software rasterisers run both sides of every branch,
+  /// so what is the same for a whole draw call is better a definition than a uniform.
+  struct Definition {
+    std::string_view name;
+    int value;
+  };
   struct Stage {
     GLenum type;
     std::string_view file;       ///< in render/shaders; only a name for messages where there is a text
     std::string_view text = {};  ///< the source itself, instead of the file's
   };
   /// Throws SystemError with the compiler's log.
-  Program(const Functions& gl, std::initializer_list<Stage> stages);
+  Program(const Functions& gl, std::initializer_list<Stage> stages,
+          std::initializer_list<Definition> definitions = {});
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;

@@ -11,31 +11,20 @@ uniform sampler2D first_cut;          // which part of the way from the light's 
 uniform usampler2DArray occluder_face;    // the first surface
 uniform sampler2DArray occluder_depth;
 uniform sampler2DArray last_depth;        // the last surface that faces the light's center
-uniform usampler2DArray penumbra_entry;   // nearest penumbra entries in front of the first surface
-uniform sampler2DArray penumbra_depth;
-uniform usampler2DArray above_entry;      // nearest umbra entries in front of the last surface
-uniform sampler2DArray above_depth;
-uniform usampler2DArray below_entry;      // and behind it
-uniform sampler2DArray below_depth;
-uniform usampler2DArray penumbra_second;  // the second nearest, where two are kept
-uniform sampler2DArray penumbra_second_depth;
-uniform usampler2DArray above_second;
-uniform sampler2DArray above_second_depth;
-uniform usampler2DArray below_second;
-uniform sampler2DArray below_second_depth;
+uniform usampler2DArray first_entry;      // nearest entries; target_count layers of each kind
+uniform sampler2DArray first_depth;
+uniform usampler2DArray second_entry;     // the second nearest, where two are kept
+uniform sampler2DArray second_depth;
 uniform samplerBuffer records;            // four points a facet: previous, a, b, next; .w of the outer: 1 + facet
 
-const int kDistances = 1;                 // contents: the 2004 paper's distances instead of edges
-const int kSmoothstep = 1, kSquareRoot = 2;
-uniform int contents;
-uniform int curve;                        // visibility of the parameter t: 0 exact, kSmoothstep, kSquareRoot
-uniform bool two_entries;
+// Kinds of entries: of the penumbra, in front of the first surface; of the umbra, in front of the last surface or behind it.
+const int kPenumbra = 0, kAbove = 1, kBelow = 2;
 
 uniform mat3 light_axes;
 uniform vec3 light_offset;
 uniform float radius;
 uniform float near_depth;
-uniform int target_count;
+const int target_count = TARGETS;
 uniform mat3 target_axes[kMaxTargets];
 uniform vec4 target_window[kMaxTargets];
 
@@ -88,26 +77,14 @@ bool is_above(float weight, Receiver r, Texel t) {
   return weight > r.weight && dot(r.n, t.direction * forward - r.x) > kBias * t.size * forward;
 }
 
-struct Entry {
-  uint content;  // 1 + facet, or the bits of the edge's 1/z; kEmpty: none
-  float weight;  // 1/z of the boundary
-  bool umbra;
-};
-
-Entry entry_of(usampler2DArray contents_, sampler2DArray depths, Texel t, bool umbra) {
-  return Entry(texelFetch(contents_, t.at, 0).r, weight_of(texelFetch(depths, t.at, 0).r, t), umbra);
-}
+ivec3 layer_of(int kind, Texel t) { return t.at + ivec3(0, 0, kind * target_count); }
 
 // The light's center decides which boundaries matter: those of the penumbra where it is seen, else those of the umbra,
 // which begin anew behind every surface that faces it.
-Entry entry_at(int k, bool hidden, Receiver r, Texel t) {
-  if (!hidden) {
-    Entry e = k == 0 ? entry_of(penumbra_entry, penumbra_depth, t, false) : entry_of(penumbra_second, penumbra_second_depth, t, false);
-    if (e.content != kEmpty || dot(r.n, r.x) < 0.0) return e;
-  }
-  if (is_above(weight_of(texelFetch(last_depth, t.at, 0).r, t), r, t))
-    return k == 0 ? entry_of(below_entry, below_depth, t, true) : entry_of(below_second, below_second_depth, t, true);
-  return k == 0 ? entry_of(above_entry, above_depth, t, true) : entry_of(above_second, above_second_depth, t, true);
+int kind_of_entries(bool hidden, Receiver r, Texel t) {
+  bool any_penumbra = texelFetch(first_entry, layer_of(kPenumbra, t), 0).r != kEmpty;
+  if (!hidden && (any_penumbra || dot(r.n, r.x) < 0.0)) return kPenumbra;
+  return is_above(weight_of(texelFetch(last_depth, t.at, 0).r, t), r, t) ? kBelow : kAbove;
 }
 
 // The receiver of a pixel; face 0: nothing seen.

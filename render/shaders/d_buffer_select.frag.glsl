@@ -12,7 +12,7 @@ void main() {
   float open = half_plane_area(chord_of_plane(r.n, r.x, radius).delta);
   bool hidden = r.cut < 1.0;
   bool open_to_entries = r.face != 0u && r.x.z > 0.0 && open > 0.0 && t.at.z >= 0;
-  bool applies = open_to_entries && entry_at(0, hidden, r, t).content != kEmpty;
+  bool applies = open_to_entries && texelFetch(first_entry, layer_of(kind_of_entries(hidden, r, t), t), 0).r != kEmpty;
   visibility = r.face == 0u ? 1.0 : r.x.z <= 0.0 ? 0.0 : open_to_entries && hidden ? 0.0 : open;
   gl_FragDepth = applies ? 1.0 : 0.0;
 }

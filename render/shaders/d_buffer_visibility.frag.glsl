@@ -1,15 +1,25 @@
 #version 450 core
 // Second pass of shading: visibility of the disk by the D-buffer's entries, at the pixels that the first pass chose.
+// CONTENTS 0: edges, kDistances: the 2004 paper's distances. CURVE, visibility of the parameter t: 0 exact, kSmoothstep,
+// kSquareRoot. ENTRIES: 1 or 2 are kept. CHECK 1: say where rays would tell whether the entry is right.
 #include "disk_area.glsl"
 #include "d_buffer_lookup.glsl"
 
+const int kDistances = 1;
+const int kSmoothstep = 1, kSquareRoot = 2;
+
 layout(early_fragment_tests) in;
 layout(location = 0) out float visibility;
+#if CHECK
+// A point of the disk, in radii: the middle of what the entry says is lit round a hidden center, or hidden round one that
+// is seen. kNowhere where nothing is to be asked.
+layout(location = 1) out vec2 aim;
+#endif
 
 // Area fraction of a half-plane, or one of the paper's approximations of it; t = (1 + δ)/2.
 float curve_of(float delta) {
   float t = clamp(0.5 + 0.5 * delta, 0.0, 1.0);
-  return curve == kSmoothstep ? t * t * (3.0 - 2.0 * t) : curve == kSquareRoot ? sqrt(t) : half_plane_area(delta);
+  return CURVE == kSmoothstep ? t * t * (3.0 - 2.0 * t) : CURVE == kSquareRoot ? sqrt(t) : half_plane_area(delta);
 }
 
 const float kBlunt = 0.5;  // cosine of the turn below which a corner counts as part of a smooth chain
@@ -40,10 +50,39 @@ Corner nearer_corner(uint facet, vec3 a, vec3 b, vec3 plane, vec3 x) {
 // The side of a chord that the disk's center is known to be on: a chord that contradicts it is moved to the center.
 float agreeing(float delta, bool hidden) { return hidden ? min(delta, 0.0) : max(delta, 0.0); }
 
+struct Entry {
+  uint content;  // 1 + facet, or the bits of the edge's 1/z; kEmpty: none
+  float weight;  // 1/z of the boundary
+  bool umbra;
+};
+
+Entry first_of(int kind, Texel t) {
+  ivec3 at = layer_of(kind, t);
+  return Entry(texelFetch(first_entry, at, 0).r, weight_of(texelFetch(first_depth, at, 0).r, t), kind != kPenumbra);
+}
+
+Entry second_of(int kind, Texel t) {
+  ivec3 at = layer_of(kind, t);
+  return Entry(texelFetch(second_entry, at, 0).r, weight_of(texelFetch(second_depth, at, 0).r, t), kind != kPenumbra);
+}
+
+const vec2 kNowhere = vec2(2.0);
+
 struct Share {
   float visibility;  // -1: the entry says nothing about this receiver
   Chord chord;
+  vec2 aim;
 };
+
+bool holds(Chord c, vec2 p) { return dot(c.normal, p) + c.delta > 0.0; }
+
+// A point well inside of the half-plane and of the other one: the middle of what the first cuts off, or what lies near the
+// rim between the two.
+vec2 middle_of(Chord one, Chord other) {
+  vec2 first = one.normal * (0.5 - 0.5 * one.delta), both = 0.9 * normalize(one.normal + other.normal);
+  if (holds(other, first)) return first;
+  return holds(one, both) && holds(other, both) ? both : kNowhere;
+}
 
 // Visibility by one edge, and its neighbour at the nearer corner or the horizon.
 Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord horizon) {
@@ -52,8 +91,8 @@ Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord
   vec3 plane = edge_plane(r.x, a, b);
   Chord chord = chord_of_plane(plane, r.x, radius);
   bool below = max(dot(r.n, a - r.x), dot(r.n, b - r.x)) <= kOnPlane * r.x.z;  // the receiver's own plane hides it
-  if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return Share(-1.0, kWholeDisk);
-  if (curve != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord);
+  if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return Share(-1.0, kWholeDisk, kNowhere);
+  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, kNowhere);
   Corner corner = nearer_corner(facet, a, b, plane, r.x);
   bool cut_by_horizon = horizon.delta < 1.0;
   // Of what both edges hide, either may leave the center lit; of what either hides, either may hide it.
@@ -66,7 +105,11 @@ Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord
   // Round a hidden center only the point of a wedge in front of the disk leaves more than half of it lit.
   bool pointed = convex && corner.inside && dot(chord.normal, other.normal) < kBlunt;
   float most = hidden && !(pointed && !overlapped) ? 0.5 : 1.0;
-  return Share(min(convex ? 1.0 - area : area, most), chord);
+  // What decides between this entry and none: of the lit part what lies beyond both edges, or beyond one of a wedge.
+  bool either = hidden ? convex : !convex && !cut_by_horizon;
+  Chord also = either ? kWholeDisk : hidden || cut_by_horizon ? other : opposite(other);
+  vec2 aim_ = middle_of(hidden ? chord : opposite(chord), also);
+  return Share(min(convex ? 1.0 - area : area, most), chord, aim_);
 }
 
 // Whether the surface that the light's center sees in this direction is not the last one before the receiver.
@@ -79,16 +122,16 @@ bool is_overlapped(Receiver r, Texel t) {
 // with |cxpv| in the other; with every distance along one line written as 1/weight it is (entry - x) / (2 (edge - x)).
 Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   float edge = uintBitsToFloat(e.content);
-  if (r.weight >= e.weight || edge <= r.weight) return Share(-1.0, kWholeDisk);
+  if (r.weight >= e.weight || edge <= r.weight) return Share(-1.0, kWholeDisk, kNowhere);
   float t = (e.weight - r.weight) / (2.0 * (edge - r.weight));
-  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk);
+  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, kNowhere);
 }
 
 Share share_of(Entry e, bool hidden, Receiver r, Texel t, Chord horizon) {
-  if (contents == kDistances) return share_of_distances(e, r, horizon);
+  if (CONTENTS == kDistances) return share_of_distances(e, r, horizon);
   // What a texel's width is worth on a boundary's slope of 1/radius in (x/z, y/z).
   float slack = t.size * dot(t.direction, t.direction) / (t.direction.z * t.direction.z * radius);
-  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, is_overlapped(r, t), r, horizon) : Share(-1.0, kWholeDisk);
+  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, is_overlapped(r, t), r, horizon) : Share(-1.0, kWholeDisk, kNowhere);
 }
 
 // Two penumbra entries are two occluders: hidden is what either hides. Two umbra entries are two sides of one occluder:
@@ -105,23 +148,23 @@ void main() {
   Chord horizon = chord_of_plane(r.n, r.x, radius);
   Texel t = texel_of(r.x);
   bool hidden = r.cut < 1.0;
-  Share first = Share(-1.0, kWholeDisk), second = first;
-  bool umbra = false;
-  int count = two_entries && horizon.delta >= 1.0 ? 2 : 1;
-  for (int k = 0; k < count; ++k) {  // a loop, since one copy of the body is faster than two
-    Entry e = entry_at(k, hidden, r, t);
-    if (e.content == kEmpty) continue;
-    Share s = share_of(e, hidden, r, t, horizon);
-    if (first.visibility < 0.0) {
-      first = s;
-      umbra = e.umbra;
-    } else {
-      second = s;
-    }
+  int kind = kind_of_entries(hidden, r, t);
+  bool umbra = kind != kPenumbra;
+  Share first = share_of(first_of(kind, t), hidden, r, t, horizon), second = Share(-1.0, kWholeDisk, kNowhere);
+#if ENTRIES > 1
+  Entry e = second_of(kind, t);
+  if (e.content != kEmpty && horizon.delta >= 1.0) second = share_of(e, hidden, r, t, horizon);
+  if (first.visibility < 0.0) {
+    first = second;
+    second.visibility = -1.0;
   }
+#endif
   if (first.visibility < 0.0) {
     visibility = hidden ? 0.0 : half_plane_area(horizon.delta);
   } else {
     visibility = second.visibility < 0.0 ? first.visibility : union_of(first, second, umbra);
   }
+#if CHECK
+  aim = first.visibility < 0.0 ? kNowhere : first.aim;
+#endif
 }

@@ -1,0 +1,66 @@
+// Which parts of the D-buffer the image's receivers will read, so that nothing is drawn for the others.
+//
+// A texel is read only by receivers on its line of sight; those that see the light's center read penumbra
+// entries, the others umbra entries; and an entry counts only for receivers behind it. So a boundary whose
+// bounds in (x/z, y/z) hold no such receiver changes no pixel, and one that holds some need not go on behind
+// the farthest of them.
+#pragma once
+
+#include <array>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "render/d_buffer_targets.h"
+#include "volumes/supports.h"
+
+namespace penumbra::detail {
+
+/// The image's receivers in a frame that axes and offset turn into the light's; the fourth number is 0 where
+/// nothing is seen.
+struct ImageReceivers {
+  int width, height;
+  std::span<const glm::vec4> positions;
+  glm::mat3 axes;
+  glm::vec3 offset;
+};
+
+/// A rectangle in (x/z, y/z).
+struct UvBounds {
+  glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+  void add(const glm::dvec2& uv) {
+    low = glm::min(low, uv);
+    high = glm::max(high, uv);
+  }
+};
+
+class ReceiverGrid {
+ public:
+  static constexpr double kNone = std::numeric_limits<double>::infinity();
+
+  /// Receivers everywhere, as far away as can be.
+  ReceiverGrid() = default;
+  /// Those of an image in the only target of `size` texels a side around a disk of the given radius; `cuts`
+  /// as from CenterRays::first_cut, `normals` in the scene's frame. Cost O(pixels), on all cores.
+  ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals, std::span<const float> cuts,
+               const Target& target, int size, double radius);
+
+  bool is_everywhere() const { return levels_.empty(); }
+  /// A number that no receiver of entries of this kind within the bounds is below: entries of no greater 1/z
+  /// are not read. kNone where there is no such receiver. Cost O(1).
+  double least_weight(SupportKind kind, const UvBounds& bounds) const;
+
+ private:
+  /// Least 1/z by cell, of penumbra and umbra entries that are read.
+  using Kinds = std::array<std::vector<float>, 2>;
+  void build_levels(Kinds finest);
+
+  std::vector<Kinds> levels_;  ///< each halves the cells a side of the one before
+  glm::dvec2 low_{0.0}, cells_per_unit_{0.0};
+  double texel_ = 0.0;  ///< in cells
+};
+
+}  // namespace penumbra::detail
