@@ -23,8 +23,8 @@ using namespace detail;
 
 constexpr double kPi = std::numbers::pi;
 
-constexpr std::size_t kMostDepth = 4;   // a tile is halved at most that often
-constexpr std::size_t kShortList = 24;  // edges; shorter lists are not narrowed
+constexpr std::size_t kShortList = 24;     // edges; shorter lists are not narrowed
+constexpr std::size_t kFewReceivers = 16;  // a quarter of a tile: narrowing for fewer costs what it saves
 
 /// What one thread keeps between tiles, and what it has counted.
 struct Workspace {
@@ -32,7 +32,7 @@ struct Workspace {
   std::vector<Fused> fused;   ///< one a receiver
   std::vector<char> certain;  ///< one a receiver
   std::vector<std::uint32_t> edges;
-  std::array<EdgeList, kMostDepth + 1> lists;  ///< of the tile, of the half at hand, of its half, …
+  EdgeList list, part_list;  ///< of the tile, and of the part at hand
   Sight sight;
   Cut cut;
   Fuser fuser;
@@ -43,8 +43,7 @@ struct Workspace {
   std::size_t bytes() const {
     std::size_t sum =
         receivers.capacity() * (sizeof(Receiver) + sizeof(Fused)) + edges.capacity() * sizeof(edges[0]);
-    for (const EdgeList& list : lists) sum += list.bytes();
-    return sum;
+    return sum + list.bytes() + part_list.bytes();
   }
 };
 
@@ -84,7 +83,7 @@ class Evaluation {
   void collect(int column, int row, Workspace& w) const;
   void add_receiver(std::size_t pixel, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
-  void descend(std::size_t first, std::size_t last, std::size_t depth, Workspace& w) const;
+  void divide(std::size_t first, std::size_t last, Workspace& w) const;
   void evaluate(std::size_t i, const EdgeList& list, Workspace& w) const;
   void integrate(std::size_t i, const DiskPart& part, Workspace& w) const;
   void certify(const RayTask& task, Workspace& w) const;
@@ -119,11 +118,11 @@ void Evaluation::tile(int column, int row, Workspace& w) const {
   }
   w.counts.listed_edges += w.edges.size();
   w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
-  w.lists[0].assign(band_, w.edges, shaft.middle());
+  w.list.assign(band_, w.edges, shaft.middle());
   w.fused.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
   w.tasks.clear();
-  descend(0, w.receivers.size(), 0, w);
+  divide(0, w.receivers.size(), w);
   decide(w);
 }
 
@@ -133,23 +132,24 @@ bool Evaluation::is_reached(const Shaft& shaft) const {
                      [&](const Bounds& box) { return !shaft.misses(box.low, box.high); });
 }
 
-/// Receivers first to last with the list of this depth: one by one where the list is short, else in two
-/// halves that lie apart, each with what is left of the list.
-void Evaluation::descend(std::size_t first, std::size_t last, std::size_t depth, Workspace& w) const {
-  const EdgeList& list = w.lists[depth];
-  if (list.size() <= kShortList || depth == kMostDepth || last - first < 4) {
-    for (std::size_t i = first; i < last; ++i) evaluate(i, list, w);
+/// Receivers first to last, one by one: with the tile's list where it is short, else in parts that lie apart,
+/// each with what is left of the list.
+void Evaluation::divide(std::size_t first, std::size_t last, Workspace& w) const {
+  if (w.list.size() <= kShortList) {
+    for (std::size_t i = first; i < last; ++i) evaluate(i, w.list, w);
     return;
   }
-  const std::size_t middle = halve(std::span(w.receivers).subspan(first, last - first)) + first;
-  for (const auto& [from, to] : {std::pair(first, middle), std::pair(middle, last)}) {
-    const auto half = std::span<const Receiver>(w.receivers).subspan(from, to - from);
-    Shaft shaft(half, band_.extent);
-    shaft.tighten(half);
-    narrow(list, shaft, w.edges);
-    w.lists[depth + 1].assign(list, w.edges);
-    descend(from, to, depth + 1, w);
+  const auto part = std::span(w.receivers).subspan(first, last - first);
+  if (part.size() > kFewReceivers) {
+    const std::size_t middle = first + halve(part);
+    divide(first, middle, w);
+    return divide(middle, last, w);
   }
+  Shaft shaft(part, band_.extent);
+  shaft.tighten(part);
+  narrow(w.list, shaft, w.edges);
+  w.part_list.assign(w.list, w.edges);
+  for (std::size_t i = first; i < last; ++i) evaluate(i, w.part_list, w);
 }
 
 void Evaluation::collect(int column, int row, Workspace& w) const {
@@ -168,7 +168,8 @@ void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
   const Vec3& normal = surface_.normal[pixel];
   const Vec3 world = surface_.position[pixel] + offset_ * normal;
   const Vec3 x = light_.point(world);
-  if (is_behind(scene_.light, surface_.position[pixel])) {
+  // Where the moved point is far in front, so is the point itself; the exact predicate is not asked.
+  if (!(x.z > 2.0 * offset_ * light_.per_radius()) && is_behind(scene_.light, surface_.position[pixel])) {
     out_.visibility[pixel] = 0.0f;
     out_.region[pixel] = 2;
     ++w.counts.behind_light;
@@ -191,7 +192,7 @@ void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
 }
 
 void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) const {
-  cut_segments(w.sight.segments, part, w.cut);
+  cut_segments(w.sight.segments, w.sight.inside, part, w.cut);
   if (!w.cut.closed) {
     w.fallback.push_back(w.receivers[i].pixel);
     return;
@@ -331,7 +332,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   Band band;
   rays.impl().arena.execute([&] { band = make_band(scene, light); });
   clock.finish("band");
-  const BandTree tree(band);
+  const BandTree tree = rays.impl().arena.execute([&] { return BandTree(band); });
   clock.finish("band_tree");
 
   tbb::enumerable_thread_specific<Workspace> spaces;

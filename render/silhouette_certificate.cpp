@@ -1,14 +1,78 @@
 #include "render/silhouette_certificate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "render/silhouette_domain.h"
+#include "render/vector_clones.h"
 
 namespace penumbra::detail {
 namespace {
 
 constexpr double kHair = 0x1p-23;
+constexpr std::size_t kFewEdges = 6;  // one by one: vectors would not be filled
+
+/// How a projected edge lies; the numbers are in the order in which they are looked for.
+enum State : std::int64_t {
+  kFar,      ///< beyond the certificate's margin
+  kBelow,    ///< near, but wholly below the horizon
+  kCrosses,  ///< near
+  kInside,   ///< both ends in the disk and above the horizon
+  kUnclear   ///< an end does not lie below the receiver
+};
+
+/// Whether segment a b comes within 1 + slack of the disk's centre, its ends being outside of the disk, from
+/// |a|², |b|², s = b - a, a·s and a × s. No division: ends may be far away.
+PENUMBRA_INLINE bool comes_near(double a2, double b2, double s2, double as, double cross, double reach2) {
+  const bool before = as >= 0.0, beyond = -as >= s2;
+  return ((before & (a2 < reach2)) | (beyond & (b2 < reach2)) |
+          (!before & !beyond & (cross * cross < reach2 * s2)));
+}
+
+/// The receiver, and the margin.
+struct Eye {
+  double x, y, z, least, reach2, horizon_x, horizon_y, horizon_delta;
+};
+
+PENUMBRA_VECTOR_CLONES
+void project(const double* ends, const std::int32_t* places, int count, const Eye& eye, double* __restrict ax,
+             double* __restrict ay, double* __restrict bx, double* __restrict by,
+             std::int64_t* __restrict states) {
+  const Eye e = eye;
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t at = 6 * places[i];
+    const double wa = e.z - ends[at + 2], wb = e.z - ends[at + 5];
+    const double ga = e.z / wa, gb = e.z / wb;
+    const double px = e.x + (ends[at] - e.x) * ga, py = e.y + (ends[at + 1] - e.y) * ga;
+    const double qx = e.x + (ends[at + 3] - e.x) * gb, qy = e.y + (ends[at + 4] - e.y) * gb;
+    const double p2 = px * px + py * py, q2 = qx * qx + qy * qy;
+    const double sx = qx - px, sy = qy - py;
+    const bool p_in = p2 < 1.0, q_in = q2 < 1.0;
+    const bool near =
+        p_in | q_in | comes_near(p2, q2, sx * sx + sy * sy, px * sx + py * sy, px * sy - py * sx, e.reach2);
+    const bool p_above = e.horizon_x * px + e.horizon_y * py + e.horizon_delta > 0.0;
+    const bool q_above = e.horizon_x * qx + e.horizon_y * qy + e.horizon_delta > 0.0;
+    const bool below = (wa > e.least) & (wb > e.least);
+    const std::int64_t state = near ? ((p_in & q_in & p_above & q_above) ? kInside
+                                       : (p_above | q_above)             ? kCrosses
+                                                                         : kBelow)
+                                    : kFar;
+    ax[i] = px, ay[i] = py, bx[i] = qx, by[i] = qy;
+    states[i] = below ? state : kUnclear;
+  }
+}
+
+/// One edge at a time, for those that `project` or the floats before it left open.
+void see_one(const BandEdge& edge, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
+  const Projection p = see(edge, x, slack);
+  if (!p.near) return;
+  out.certain = false;
+  if (p.segment.jump == 0) return;
+  if (!(height(horizon, p.segment.a) > 0.0) && !(height(horizon, p.segment.b) > 0.0)) return;
+  out.crossing.push_back(p.segment);
+}
 
 }  // namespace
 
@@ -34,26 +98,56 @@ Projection see(const BandEdge& e, const Vec3& x, double slack) {
   const glm::dvec2 pa = from + (a - from) * (x.z / wa), pb = from + (b - from) * (x.z / wb);
 
   if (glm::dot(pa, pa) < 1.0 || glm::dot(pb, pb) < 1.0) return {{pa, pb, jump}, true};
-  // Nearest point of the segment to the disk's centre.
   const glm::dvec2 s = pb - pa;
-  const double length2 = glm::dot(s, s), along = -glm::dot(pa, s);
-  const double t = along <= 0.0 ? 0.0 : (along >= length2 ? 1.0 : along / length2);
-  const glm::dvec2 nearest = pa + t * s;
-  return {{pa, pb, jump}, glm::dot(nearest, nearest) < (1.0 + slack) * (1.0 + slack)};
+  const double reach = 1.0 + slack;
+  return {{pa, pb, jump},
+          comes_near(glm::dot(pa, pa), glm::dot(pb, pb), glm::dot(s, s), glm::dot(pa, s),
+                     pa.x * s.y - pa.y * s.x, reach * reach)};
 }
 
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
-  sift(list, x, out.sifted);
   out.segments.clear();
+  out.inside = 0;
   out.certain = true;
-  for (const std::uint32_t i : out.sifted) {
-    const Projection p = see(list[i], x, slack);
-    if (!p.near) continue;
-    out.certain = false;
-    if (p.segment.jump == 0) continue;
-    if (!(height(horizon, p.segment.a) > 0.0) && !(height(horizon, p.segment.b) > 0.0)) continue;
-    out.segments.push_back(p.segment);
+  out.crossing.clear();
+  if (list.size() <= kFewEdges) {
+    for (std::size_t i = 0; i < list.size(); ++i) see_one(list.edge(list.place(i)), x, horizon, slack, out);
+    std::swap(out.segments, out.crossing);
+    return;
   }
+  sift(list, x, out.sifted);
+  const std::size_t count = out.sifted.places.size();
+  for (auto& column : out.ends) column.resize(std::max(column.size(), count));
+  out.states.resize(std::max(out.states.size(), count));
+  out.segments.resize(count);
+  const double reach = 1.0 + slack;
+  const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
+               *by = out.ends[3].data();
+  project(list.ends(), out.sifted.places.data(), static_cast<int>(count),
+          {x.x, x.y, x.z, kHair * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
+          out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t state = out.states[i];
+    const std::int32_t jump = out.sifted.jumps[i];
+    const bool sure = jump != Sifted::kUnsure;
+    out.segments[inside] = {{ax[i], ay[i]}, {bx[i], by[i]}, jump};
+    if (state == kInside && sure) {
+      ++inside;
+      continue;
+    }
+    if (state == kFar) continue;
+    if (state == kUnclear || !sure) {
+      see_one(list.edge(out.sifted.places[i]), x, horizon, slack, out);
+    } else {
+      out.certain = false;
+      if (state == kCrosses) out.crossing.push_back(out.segments[inside]);
+    }
+  }
+  out.inside = inside;
+  out.certain = out.certain && inside == 0;
+  out.segments.resize(inside);
+  out.segments.insert(out.segments.end(), out.crossing.begin(), out.crossing.end());
 }
 
 }  // namespace penumbra::detail

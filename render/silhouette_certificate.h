@@ -11,8 +11,12 @@
 // disk and its jump is not certainly 0. Errors of coordinates, at most u M each, grow by x.z/w, w = x.z -
 // p.z; the point of the segment that is nearest to the disk, computed from ends at most 2^24 M away, is off
 // by less than 2^-53 2^24 M times a small number: slack = 1e-6 + 2^-26 M bounds both.
+//
+// `see` is the definition, for one edge; `look` does the same for a list, in vectors wherever an edge lies
+// below the receiver and floats were sure of its jump.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -38,9 +42,15 @@ double certificate_slack(double extent);
 
 /// What one receiver sees: the segments that are near, have a jump, and are not wholly below its horizon.
 struct Sight {
-  std::vector<std::uint32_t> sifted;
   std::vector<Segment> segments;
-  bool certain = false;  ///< no edge of the list meets the disk
+  std::size_t inside = 0;  ///< so many come first whose ends both lie in the disk and above the horizon
+  bool certain = false;    ///< no edge of the list meets the disk
+
+  // Working memory.
+  Sifted sifted;
+  std::array<std::vector<double>, 4> ends;  ///< of projections: a.x, a.y, b.x, b.y
+  std::vector<std::int64_t> states;
+  std::vector<Segment> crossing;
 };
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out);
 

@@ -37,7 +37,7 @@ class CasterBand {
   std::size_t mixed_faces() const { return classes_.mixed; }
 
   void append_to(Band& band) const {
-    for (const EdgeId id : find_silhouettes(mesh_, classes_).band) add_edge(mesh_.edges()[index(id)], band);
+    add_edges(find_silhouettes(mesh_, classes_).band, band);
     for (std::size_t f = 0; f < classes_.faces.size(); ++f)
       if (classes_.faces[f] == FaceClass::kMixed) add_cut(f, band);
   }
@@ -56,14 +56,25 @@ class CasterBand {
     return {n, -glm::dot(n, a), 0x1p-46 * extent * (1.0 + 4.0 * extent * spread)};
   }
 
-  void add_edge(const Edge& edge, Band& band) const {
+  /// On all cores, in the order of `ids`.
+  void add_edges(const std::vector<EdgeId>& ids, Band& band) const {
+    constexpr std::size_t kBlock = 1024;
+    std::vector<std::vector<BandEdge>> blocks((ids.size() + kBlock - 1) / kBlock);
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t b) {
+      for (std::size_t i = b * kBlock; i < std::min(ids.size(), (b + 1) * kBlock); ++i)
+        add_edge(mesh_.edges()[index(ids[i])], band.extent, blocks[b]);
+    });
+    for (const auto& block : blocks) band.edges.insert(band.edges.end(), block.begin(), block.end());
+  }
+
+  void add_edge(const Edge& edge, double extent, std::vector<BandEdge>& out) const {
     Vec3 a = point(edge.from), b = point(edge.to);
     if (!in_front(a) && !in_front(b)) return;
     if (!in_front(a)) a = cut(a, b);
     if (!in_front(b)) b = cut(a, b);
-    BandEdge e{a, b, plane_of(index(edge.left), band.extent), {}, !edge.is_boundary()};
-    if (e.has_right) e.right = plane_of(index(edge.right), band.extent);
-    band.edges.push_back(e);
+    BandEdge e{a, b, plane_of(index(edge.left), extent), {}, !edge.is_boundary()};
+    if (e.has_right) e.right = plane_of(index(edge.right), extent);
+    out.push_back(e);
   }
 
   /// The front part of a face that crosses the light's plane ends where it leaves the front and begins again

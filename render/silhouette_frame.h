@@ -62,7 +62,7 @@ struct Band {
   std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, cut_edges = 0;
 };
 
-/// Cost O(faces), classification on all cores. Deterministic. Requires radius > 0.
+/// Cost O(faces), on all cores. Deterministic. Requires radius > 0.
 Band make_band(const Scene& scene, const UnitLight& light);
 
 }  // namespace penumbra::detail

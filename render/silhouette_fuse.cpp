@@ -18,19 +18,6 @@ double rim_integral(double y) {
   return 0.5 * (y * std::sqrt((1.0 - y) * (1.0 + y)) + std::asin(y));
 }
 
-/// By x; rows hold few crossings, mostly.
-template <class Crossing>
-void sort_crossings(Crossing* first, Crossing* last) {
-  const auto before = [](const Crossing& p, const Crossing& q) { return p.x < q.x; };
-  if (last - first > 16) return std::sort(first, last, before);
-  for (Crossing* c = first; c != last; ++c) {
-    const Crossing moving = *c;
-    Crossing* to = c;
-    for (; to != first && before(moving, to[-1]); --to) *to = to[-1];
-    *to = moving;
-  }
-}
-
 }  // namespace
 
 bool fuse_chain(const Cut& cut, const DiskPart& part, Fused& out) {
@@ -62,46 +49,55 @@ void Fuser::begin() {
   lowest_ = kMostLevels + 1, highest_ = -kMostLevels - 1, parity_ = 0;
 }
 
-void Fuser::add_interval(const Row& row, double from, double to, int level) {
+void Fuser::add_interval(const Slab& slab, double from, double to, int level) {
   const double length = to - from;
   if (!(length > kLeastLength)) return;
   level = std::clamp(level, -kMostLevels, kMostLevels);
-  areas_[level + kMostLevels] += length * row.height;
+  areas_[level + kMostLevels] += length * slab.height;
   highest_ = std::max(highest_, level);
   if (level > lowest_) return;
   if (level < lowest_) {
     lowest_ = level;
     aims_ = {};
   }
-  const double room = length * row.height / (length + row.height);
   Aim& aim = aims_[parity_];
-  if (room > aim.room) aim = {room, {0.5 * (from + to), row.y}};
+  const double area = length * slab.height, reach = length + slab.height;
+  if (area * aim.reach > aim.area * reach) aim = {area, reach, {0.5 * (from + to), slab.y}};
 }
 
-/// The crossings of one row, in any order; they are sorted in place.
-void Fuser::sweep(const Row& row, Crossing* first, Crossing* last) {
+/// By x; slabs hold few crossings.
+void Fuser::sort_crossings() {
+  for (auto c = crossings_.begin(); c != crossings_.end(); ++c) {
+    const Crossing moving = *c;
+    auto to = c;
+    for (; to != crossings_.begin() && moving.x < to[-1].x; --to) *to = to[-1];
+    *to = moving;
+  }
+}
+
+/// The intervals between a slab's crossings.
+void Fuser::sweep(const Slab& slab) {
   parity_ ^= 1;
-  sort_crossings(first, last);
-  int level = row.first_level;
-  double from = row.left;
-  for (const Crossing* c = first; c != last; ++c) {
-    const double x = std::min(std::max(c->x, row.left), row.right);
-    if (x > from) add_interval(row, from, x, level);
-    level += c->change;
+  int level = slab.first_level;
+  double from = slab.left;
+  for (const Crossing& c : crossings_) {
+    const double x = std::min(std::max(c.x, slab.left), slab.right);
+    if (x > from) add_interval(slab, from, x, level);
+    level += c.change;
     from = std::max(from, x);
   }
-  add_interval(row, from, row.right, level);
+  add_interval(slab, from, slab.right, level);
 }
 
-Fused Fuser::finish(Fusion way, double area_scale) const {
+Fused Fuser::finish() const {
   Fused out;
-  out.area = areas_[lowest_ + kMostLevels] * area_scale;
+  out.area = areas_[lowest_ + kMostLevels];
   out.levels = 0;
   for (int k = lowest_; k <= highest_; ++k) out.levels += areas_[k + kMostLevels] > 0.0 ? 1 : 0;
   out.aims = {aims_[0].at, aims_[1].at};
-  if (aims_[0].room < aims_[1].room) std::swap(out.aims[0], out.aims[1]);
-  if (std::min(aims_[0].room, aims_[1].room) == 0.0) out.aims[1] = out.aims[0];
-  out.way = way;
+  if (aims_[0].room() < aims_[1].room()) std::swap(out.aims[0], out.aims[1]);
+  if (std::min(aims_[0].area, aims_[1].area) == 0.0) out.aims[1] = out.aims[0];
+  out.way = Fusion::kSlabs;
   return out;
 }
 
@@ -143,74 +139,28 @@ Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part) {
     const double y = 0.5 * (low + high), rim = rim_integral(high);
     const auto [left, right] = part.span(y, (rim - rim_before) / height);
     rim_before = rim;
-    Row row{y, height, left, right, 0};
+    Slab slab{y, height, left, right, 0};
     for (const Event& e : cut.events)
-      if (e.at.y < y && part.on_left(e)) row.first_level -= e.change;
+      if (e.at.y < y && part.on_left(e)) slab.first_level -= e.change;
     crossings_.clear();
     for (const Line& line : lines_)
       if (line.low <= y && y < line.high) crossings_.push_back({line.at(y), line.change});
-    sweep(row, crossings_.data(), crossings_.data() + crossings_.size());
+    sort_crossings();
+    sweep(slab);
   }
-  const Fused out = finish(Fusion::kSlabs, 1.0);
+  const Fused out = finish();
   std::fill(areas_.begin() + lowest_ + kMostLevels, areas_.begin() + highest_ + kMostLevels + 1, 0.0);
   return out;
-}
-
-/// Counting sort of all crossings by row. A row at height y is crossed by segments with low < y ≤ high; an
-/// event on the left side at height e changes the left ends of rows with y > e. Both are decided by the same
-/// rounding of the same heights, so that levels stay whole.
-void Fuser::cross_rows(const Cut& cut, const DiskPart& part, int rows) {
-  const double bottom = part.bottom(), spacing = (part.top() - bottom) / rows, per = 1.0 / spacing;
-  const auto first_above = [&](double y) {
-    return std::clamp(static_cast<int>((y - bottom) * per + 0.5), 0, rows);
-  };
-  starts_.assign(static_cast<std::size_t>(rows) + 1, 0);
-  left_levels_.assign(static_cast<std::size_t>(rows) + 1, 0);
-  for (const Event& e : cut.events)
-    if (part.on_left(e)) left_levels_[first_above(e.at.y)] -= e.change;
-  for (int i = 1; i < rows; ++i) left_levels_[i] += left_levels_[i - 1];
-
-  lines_.clear();
-  spans_.clear();
-  for (const Segment& segment : cut.segments) {  // most that are short cross no row
-    const int a = first_above(segment.a.y), b = first_above(segment.b.y);
-    if (a == b) continue;
-    add_line(segment);
-    spans_.emplace_back(std::min(a, b), std::max(a, b));
-    for (int i = spans_.back().first; i < spans_.back().second; ++i) ++starts_[i];
-  }
-  int sum = 0;
-  for (int& s : starts_) s = sum += s;  // ends, until the loop below has walked them back to starts
-  crossings_.resize(static_cast<std::size_t>(sum));
-  for (std::size_t k = 0; k < lines_.size(); ++k) {
-    const Line& line = lines_[k];
-    for (int i = spans_[k].first; i < spans_[k].second; ++i)
-      crossings_[--starts_[i]] = {line.at(bottom + (i + 0.5) * spacing), line.change};
-  }
 }
 
 Fused Fuser::by_rows(const Cut& cut, const DiskPart& part, int rows) {
-  cross_rows(cut, part, rows);
-  begin();
-  const double spacing = (part.top() - part.bottom()) / rows;
-  for (int i = 0; i < rows; ++i) {
-    const double y = part.bottom() + (i + 0.5) * spacing;
-    const auto [left, right] = part.span(y, part.half_width(y));
-    sweep({y, spacing, left, right, left_levels_[i]}, crossings_.data() + starts_[i],
-          crossings_.data() + starts_[i + 1]);
-  }
-  double total = 0.0, mean = 0.0, square = 0.0;
-  for (int k = lowest_; k <= highest_; ++k) {
-    const double area = areas_[k + kMostLevels];
-    total += area, mean += k * area, square += k * area * k;
-  }
-  mean /= total;
-  const double variance = square / total - mean * mean;
-  Fused out = finish(Fusion::kRows, part.area() / total);
-  const double c = out.levels > 1 ? out.area / part.area() * (lowest_ - mean) / variance : 0.0;
-  out.area = std::clamp(out.area + c * (cut.integral - part.area() * mean), 0.0, part.area());
-  std::fill(areas_.begin() + lowest_ + kMostLevels, areas_.begin() + highest_ + kMostLevels + 1, 0.0);
-  return out;
+  const RowSums sums = rows_.sweep(cut, part, rows);
+  if (!(sums.length > 0.0)) return {part.area(), 1, {part.middle(), part.middle()}, Fusion::kRows};
+  const double share = sums.lowest_length / sums.length, mean = sums.first / sums.length;
+  const double variance = sums.second / sums.length - mean * mean;
+  const double c = sums.levels > 1 ? share * (sums.lowest - mean) / variance : 0.0;
+  const double area = part.area() * share + c * (cut.integral - part.area() * mean);
+  return {std::clamp(area, 0.0, part.area()), sums.levels, sums.aims, Fusion::kRows};
 }
 
 Fused Fuser::fuse(const Cut& cut, const DiskPart& part, int rows) {

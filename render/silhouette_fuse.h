@@ -22,7 +22,7 @@
 
 #include <array>
 
-#include "render/silhouette_integrate.h"
+#include "render/silhouette_rows.h"
 
 namespace penumbra::detail {
 
@@ -38,8 +38,8 @@ struct Fused {
 /// For one receiver after the other, with memory kept between them.
 class Fuser {
  public:
-  /// `rows`: how many where there are many segments. Cost for s segments: s for a chain, s² for slabs, s +
-  /// crossings log s for rows.
+  /// `rows`: how many where there are many segments. Cost for s segments: s for a chain, s² for slabs; of
+  /// rows see silhouette_rows.h.
   Fused fuse(const Cut& cut, const DiskPart& part, int rows);
 
   Fused by_slabs(const Cut& cut, const DiskPart& part);
@@ -56,30 +56,29 @@ class Fuser {
     int change;
   };
   struct Aim {
-    double room = 0.0;
+    double area = 0.0, reach = 1.0;  ///< of the interval: length × height, length + height
     glm::dvec2 at{0.0};
+    double room() const { return area / reach; }
   };
-  struct Row {
+  struct Slab {
     double y, height, left, right;
     int first_level;
   };
 
   void add_line(const Segment& segment);
   void make_heights(const DiskPart& part, const Cut& cut);
-  void cross_rows(const Cut& cut, const DiskPart& part, int rows);
   void begin();
-  void sweep(const Row& row, Crossing* first, Crossing* last);
-  void add_interval(const Row& row, double from, double to, int level);
-  Fused finish(Fusion way, double area_scale) const;
+  void sort_crossings();
+  void sweep(const Slab& slab);
+  void add_interval(const Slab& slab, double from, double to, int level);
+  Fused finish() const;
 
+  Rows rows_;
   std::vector<Line> lines_;
   std::vector<double> heights_;
-  std::vector<std::pair<int, int>> spans_;
-  std::vector<int> starts_;       ///< first crossing of each row
-  std::vector<int> left_levels_;  ///< at the left end of each row
   std::vector<Crossing> crossings_;
   std::vector<double> areas_;  ///< by level
-  std::array<Aim, 2> aims_;    ///< in the lowest level so far, in rows of either parity
+  std::array<Aim, 2> aims_;    ///< in the lowest level so far, in slabs of either parity
   int lowest_ = 0, highest_ = 0, parity_ = 0;
 };
 

@@ -1,5 +1,8 @@
 #include "render/silhouette_gather.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -49,7 +52,7 @@ std::vector<BandEdge> along_curve(const std::vector<BandEdge>& edges) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(edges.size());
   for (std::uint32_t i = 0; i < edges.size(); ++i)
     order[i] = {morton_code(0.5 * (edges[i].a + edges[i].b), box), i};
-  std::sort(order.begin(), order.end());
+  tbb::parallel_sort(order.begin(), order.end());  // all different: one order
   std::vector<BandEdge> sorted;
   sorted.reserve(edges.size());
   for (const auto& [code, i] : order) sorted.push_back(edges[i]);
@@ -170,9 +173,11 @@ bool Shaft::never_silhouette(const BandEdge& e) const {
 
 BandTree::BandTree(Band& band) : band_(band) {
   band.edges = along_curve(band.edges);
-  std::vector<Node> leaves;
-  for (std::size_t i = 0; i < band.edges.size(); i += kFanOut)
-    leaves.push_back(node_of(i, std::min(i + kFanOut, band.edges.size())));
+  std::vector<Node> leaves((band.edges.size() + kFanOut - 1) / kFanOut);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, leaves.size(), 512), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      leaves[i] = node_of(i * kFanOut, std::min((i + 1) * kFanOut, band.edges.size()));
+  });
   levels_.push_back(std::move(leaves));
   while (levels_.back().size() > 1) {
     const std::vector<Node>& below = levels_.back();

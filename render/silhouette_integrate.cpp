@@ -53,8 +53,8 @@ bool cut_to_horizon(End& a, End& b, const Chord& horizon) {
 
 }  // namespace
 
-void cut_segments(std::span<const Segment> segments, const DiskPart& part, Cut& out) {
-  out.segments.clear();
+void cut_segments(std::span<const Segment> segments, std::size_t inside, const DiskPart& part, Cut& out) {
+  out.segments.assign(segments.begin(), segments.begin() + static_cast<std::ptrdiff_t>(inside));
   out.events.clear();
   double sum = 0.0;
   int changes = 0;
@@ -66,7 +66,8 @@ void cut_segments(std::span<const Segment> segments, const DiskPart& part, Cut& 
     changes += change;
     out.events.push_back(event);
   };
-  for (const Segment& s : segments) {
+  for (const Segment& s : out.segments) sum += 0.5 * s.jump * cross(s.a, s.b);
+  for (const Segment& s : segments.subspan(inside)) {
     End a{s.a}, b{s.b};
     if (!cut_to_disk(a, b)) continue;
     if (part.is_cut() && !cut_to_horizon(a, b, part.horizon())) continue;

@@ -26,7 +26,8 @@ struct Cut {
   bool closed = true;     ///< the events' changes add up to 0, as they do unless edges were lost
 };
 
-void cut_segments(std::span<const Segment> segments, const DiskPart& part, Cut& out);
+/// The first `inside` segments are known to have both ends inside D.
+void cut_segments(std::span<const Segment> segments, std::size_t inside, const DiskPart& part, Cut& out);
 
 /// True where only two levels can occur: one chain of segments that enters and leaves D once and never turns
 /// by a right angle or more from its general direction, hence never crosses itself.

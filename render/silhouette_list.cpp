@@ -14,25 +14,25 @@ constexpr std::size_t kChunk = 512;  // edges at a time
 
 /// The receiver: where it is, and the same from the tile's middle.
 struct FloatReceiver {
-  float x, y, z, dx, dy, dz, extent;
+  float x, y, z, per_z, dx, dy, dz, extent;
 };
 
 FloatReceiver float_receiver(const EdgeList& list, const Vec3& x) {
   const Vec3 d = x - list.middle();
-  return {static_cast<float>(x.x),          static_cast<float>(x.y), static_cast<float>(x.z),
-          static_cast<float>(d.x),          static_cast<float>(d.y), static_cast<float>(d.z),
-          static_cast<float>(list.extent())};
+  return {static_cast<float>(x.x),       static_cast<float>(x.y),          static_cast<float>(x.z),
+          static_cast<float>(1.0 / x.z), static_cast<float>(d.x),          static_cast<float>(d.y),
+          static_cast<float>(d.z),       static_cast<float>(list.extent())};
 }
 
-/// Whether an edge has to be looked at, without branches. Products and sums as they stand: float.
-PENUMBRA_INLINE std::int32_t is_kept(float ax, float ay, float az, float bx, float by, float bz, float size,
-                                     float lx, float ly, float lz, float ld, float lt, float rx, float ry,
-                                     float rz, float rd, float rt, const FloatReceiver& r) {
+/// The jump of an edge that has to be looked at, else 0; without branches. Products and sums as they stand:
+/// float. A face that is missing on the right has value 0 and tolerance -1: surely on neither side.
+PENUMBRA_INLINE std::int32_t kept_jump(float ax, float ay, float az, float bx, float by, float bz, float size,
+                                       float lx, float ly, float lz, float ld, float lt, float rx, float ry,
+                                       float rz, float rd, float rt, const FloatReceiver& r) {
   const float left = lx * r.dx + ly * r.dy + lz * r.dz + ld;
   const float right = rx * r.dx + ry * r.dy + rz * r.dz + rd;
-  // Both beyond their tolerance and of one sign: a jump of 0. An edge with one face has a right tolerance
-  // that is never passed.
-  const bool idle = ((left > lt) & (right > rt)) | ((-left > lt) & (-right > rt));
+  const bool sure = (std::abs(left) > lt) & (std::abs(right) > rt);
+  const std::int32_t jump = (left > 0.0f ? 1 : -1) + (right > 0.0f ? -1 : 0) + (right < 0.0f ? 1 : 0);
 
   const float wa = r.dz - az, wb = r.dz - bz;
   const float w = wa < wb ? wa : wb;
@@ -43,7 +43,8 @@ PENUMBRA_INLINE std::int32_t is_kept(float ax, float ay, float az, float bx, flo
   const float length2 = sx * sx + sy * sy;
   const float along = -(pax * sx + pay * sy);
   const float across = pax * sy - pay * sx;
-  const float reach = 1.0f + 0x1p-19f * (r.extent + size * (ga > gb ? ga : gb) * (1.0f + size / w));
+  const float g = ga > gb ? ga : gb;
+  const float reach = 1.0f + 0x1p-19f * (r.extent + size * g * (1.0f + size * g * r.per_z));
   const float reach2 = reach * reach;
   const float a2 = pax * pax + pay * pay, b2 = pbx * pbx + pby * pby;
   const bool beside = (across * across > reach2 * length2 * 1.0001f) | ((along <= 0.0f) & (a2 > reach2)) |
@@ -52,7 +53,7 @@ PENUMBRA_INLINE std::int32_t is_kept(float ax, float ay, float az, float bx, flo
   const float hair = 0x1p-20f * (r.extent + size);
   const bool above = (wa < -hair) & (wb < -hair);
   const bool below = w > hair;
-  return (idle | above | (below & beside)) ? 0 : 1;
+  return (above | (below & beside)) ? 0 : (sure ? jump : Sifted::kUnsure);
 }
 
 struct Columns {
@@ -62,10 +63,10 @@ struct Columns {
   const float* at[EdgeList::kColumns];
 };
 
-/// kept[i] = 1 for edges first + i that have to be looked at, else 0.
+/// jumps[i] of edges first + i: 0 where an edge is dismissed.
 PENUMBRA_VECTOR_CLONES
 void sift_range(const Columns& columns, std::size_t first, int count, const FloatReceiver& receiver,
-                std::int32_t* __restrict kept) {
+                std::int32_t* __restrict jumps) {
   const FloatReceiver r = receiver;
   using L = EdgeList;
   const float* const* at = columns.at;
@@ -76,24 +77,48 @@ void sift_range(const Columns& columns, std::size_t first, int count, const Floa
   const float *ld = at[L::kLd] + first, *lt = at[L::kLt] + first, *rd = at[L::kRd] + first;
   const float *rt = at[L::kRt] + first, *size = at[L::kSize] + first;
   for (int i = 0; i < count; ++i)
-    kept[i] = is_kept(ax[i], ay[i], az[i], bx[i], by[i], bz[i], size[i], lx[i], ly[i], lz[i], ld[i], lt[i],
-                      rx[i], ry[i], rz[i], rd[i], rt[i], r);
+    jumps[i] = kept_jump(ax[i], ay[i], az[i], bx[i], by[i], bz[i], size[i], lx[i], ly[i], lz[i], ld[i], lt[i],
+                         rx[i], ry[i], rz[i], rd[i], rt[i], r);
 }
 
-/// Adds to outside[i] where edge first + i lies beyond the plane x·px + y·py + z·pz + offset = 0.
+/// The planes of a shaft in a list's coordinates, x·px + y·py + z·pz + offset > grain (extent + size)
+/// outside.
+struct FloatPlanes {
+  FloatPlanes(const Shaft& shaft, const EdgeList& list) : extent(static_cast<float>(list.extent())) {
+    for (int k = 0; k <= kShaftSides; ++k) {
+      const Shaft::Side side = shaft.side_plane(k);
+      x[k] = static_cast<float>(side.normal.x);
+      y[k] = static_cast<float>(side.normal.y);
+      z[k] = static_cast<float>(side.normal.z);
+      offset[k] = static_cast<float>(glm::dot(side.normal, list.middle()) + side.offset);
+      grain[k] = 0x1p-19f * static_cast<float>(1.0 + std::abs(side.normal.z));
+    }
+  }
+  float x[kShaftSides + 1], y[kShaftSides + 1], z[kShaftSides + 1], offset[kShaftSides + 1],
+      grain[kShaftSides + 1];
+  float extent;
+};
+
+/// outside[i] is set where edge first + i lies beyond some plane, else 0.
 PENUMBRA_VECTOR_CLONES
-void mark_beyond(const Columns& columns, std::size_t first, int count, float x, float y, float z,
-                 float offset, float extent, float grain, std::int32_t* __restrict outside) {
+void mark_beyond(const Columns& columns, std::size_t first, int count, const FloatPlanes& planes,
+                 std::int32_t* __restrict outside) {
   using L = EdgeList;
   const float* const* at = columns.at;
   const float *ax = at[L::kAx] + first, *ay = at[L::kAy] + first, *az = at[L::kAz] + first;
   const float *bx = at[L::kBx] + first, *by = at[L::kBy] + first, *bz = at[L::kBz] + first;
   const float* size = at[L::kSize] + first;
   for (int i = 0; i < count; ++i) {
-    const float a = x * ax[i] + y * ay[i] + z * az[i] + offset;
-    const float b = x * bx[i] + y * by[i] + z * bz[i] + offset;
-    const float margin = grain * (extent + size[i]);
-    outside[i] += ((a > margin) & (b > margin)) ? 1 : 0;
+    const float x0 = ax[i], y0 = ay[i], z0 = az[i], x1 = bx[i], y1 = by[i], z1 = bz[i];
+    const float reach = planes.extent + size[i];
+    std::int32_t beyond = 0;
+#pragma GCC unroll 17
+    for (int k = 0; k <= kShaftSides; ++k) {
+      const float a = planes.x[k] * x0 + planes.y[k] * y0 + planes.z[k] * z0 + planes.offset[k];
+      const float b = planes.x[k] * x1 + planes.y[k] * y1 + planes.z[k] * z1 + planes.offset[k];
+      beyond |= (a < b ? a : b) > planes.grain[k] * reach ? 1 : 0;
+    }
+    outside[i] = beyond;
   }
 }
 
@@ -112,25 +137,8 @@ void mark_idle(const Columns& columns, std::size_t first, int count, float x, fl
     const float right = rx[i] * x + ry[i] * y + rz[i] * z + rd[i];
     const float l = lt[i] + std::abs(lx[i]) * hx + std::abs(ly[i]) * hy + std::abs(lz[i]) * hz;
     const float r = rt[i] + std::abs(rx[i]) * hx + std::abs(ry[i]) * hy + std::abs(rz[i]) * hz;
-    outside[i] += (((left > l) & (right > r)) | ((-left > l) & (-right > r))) ? 1 : 0;
+    outside[i] |= ((std::abs(left) > l) & (std::abs(right) > r) & (left * right > 0.0f)) ? 1 : 0;
   }
-}
-
-/// The shaft's planes and the idle test, over one chunk.
-void mark_outside(const EdgeList& list, const Columns& columns, std::size_t first, int count,
-                  const Shaft& shaft, std::int32_t* outside) {
-  const auto extent = static_cast<float>(list.extent());
-  std::fill(outside, outside + count, 0);
-  for (int k = 0; k < kShaftSides + 1; ++k) {
-    const Shaft::Side side = shaft.side_plane(k);
-    const double offset = glm::dot(side.normal, list.middle()) + side.offset;
-    mark_beyond(columns, first, count, static_cast<float>(side.normal.x), static_cast<float>(side.normal.y),
-                static_cast<float>(side.normal.z), static_cast<float>(offset), extent,
-                0x1p-19f * static_cast<float>(1.0 + std::abs(side.normal.z)), outside);
-  }
-  const Vec3 d = shaft.middle() - list.middle(), half = 1.0001 * shaft.half();
-  mark_idle(columns, first, count, static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z),
-            static_cast<float>(half.x), static_cast<float>(half.y), static_cast<float>(half.z), outside);
 }
 
 /// Tolerance for a float sum n·d + offset, |d| ≤ `reach`.
@@ -141,23 +149,32 @@ float float_tolerance(const FacePlane& plane, double offset, double reach) {
 }  // namespace
 
 void EdgeList::assign(const Band& band, std::span<const std::uint32_t> edges, const Vec3& middle) {
+  tile_ = nullptr;
   middle_ = middle;
   extent_ = band.extent;
-  edges_.clear();
-  for (const std::uint32_t e : edges) edges_.push_back(&band.edges[e]);
+  edges_.resize(edges.size());
+  ends_.resize(6 * edges.size());
+  places_.resize(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const BandEdge& e = band.edges[edges[i]];
+    edges_[i] = &e;
+    places_[i] = static_cast<std::int32_t>(i);
+    for (int k = 0; k < 3; ++k) ends_[6 * i + k] = e.a[k], ends_[6 * i + 3 + k] = e.b[k];
+  }
   fill_columns();
 }
 
-void EdgeList::assign(const EdgeList& list, std::span<const std::uint32_t> places) {
+void EdgeList::assign(const EdgeList& list, std::span<const std::uint32_t> indices) {
+  tile_ = &list.tile();
   middle_ = list.middle_;
   extent_ = list.extent_;
-  edges_.resize(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) edges_[i] = list.edges_[places[i]];
+  places_.resize(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) places_[i] = list.places_[indices[i]];
   for (int c = 0; c < kColumns; ++c) {
-    columns_[c].resize(places.size());
+    columns_[c].resize(indices.size());
     const float* from = list.columns_[c].data();
     float* to = columns_[c].data();
-    for (std::size_t i = 0; i < places.size(); ++i) to[i] = from[places[i]];
+    for (std::size_t i = 0; i < indices.size(); ++i) to[i] = from[indices[i]];
   }
 }
 
@@ -180,47 +197,59 @@ void EdgeList::fill_columns() {
     columns_[kSize][i] = static_cast<float>(std::max(largest_component(a), largest_component(b)));
     fill_plane(e.left, i, kLx);
     fill_plane(e.right, i, kRx);
-    if (!e.has_right) columns_[kRt][i] = std::numeric_limits<float>::infinity();
+    if (!e.has_right) columns_[kRd][i] = 0.0f, columns_[kRt][i] = -1.0f;
   }
 }
 
 std::size_t EdgeList::bytes() const {
-  return edges_.capacity() * sizeof(edges_[0]) + kColumns * columns_[0].capacity() * sizeof(float);
+  return edges_.capacity() * sizeof(edges_[0]) + ends_.capacity() * sizeof(ends_[0]) +
+         places_.capacity() * sizeof(places_[0]) + kColumns * columns_[0].capacity() * sizeof(float);
 }
 
 void narrow(const EdgeList& list, const Shaft& shaft, std::vector<std::uint32_t>& out) {
   const Columns columns(list);
+  const FloatPlanes planes(shaft, list);
+  const glm::vec3 d(shaft.middle() - list.middle()), half(1.0001 * shaft.half());
   alignas(64) std::int32_t outside[kChunk];
-  out.clear();
-  for (std::size_t first = 0; first < list.size(); first += kChunk) {
-    const std::size_t count = std::min(kChunk, list.size() - first);
-    mark_outside(list, columns, first, static_cast<int>(count), shaft, outside);
-    for (std::size_t i = 0; i < count; ++i)
-      if (outside[i] == 0) out.push_back(static_cast<std::uint32_t>(first + i));
-  }
-}
-
-void sift(const EdgeList& list, const Vec3& x, std::vector<std::uint32_t>& out) {
-  const Columns columns(list);
-  const FloatReceiver receiver = float_receiver(list, x);
-  alignas(64) std::int32_t kept[kChunk];
   out.resize(list.size());
   std::size_t found = 0;
   for (std::size_t first = 0; first < list.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, list.size() - first);
-    sift_range(columns, first, static_cast<int>(count), receiver, kept);
+    mark_beyond(columns, first, static_cast<int>(count), planes, outside);
+    mark_idle(columns, first, static_cast<int>(count), d.x, d.y, d.z, half.x, half.y, half.z, outside);
     for (std::size_t i = 0; i < count; ++i) {
       out[found] = static_cast<std::uint32_t>(first + i);
-      found += static_cast<std::size_t>(kept[i]);
+      found += outside[i] == 0 ? 1 : 0;
     }
   }
   out.resize(found);
 }
 
-bool sift_one(const EdgeList& list, std::size_t i, const Vec3& x) {
-  std::int32_t kept = 0;
-  sift_range(Columns(list), i, 1, float_receiver(list, x), &kept);
-  return kept != 0;
+void sift(const EdgeList& list, const Vec3& x, Sifted& out) {
+  const Columns columns(list);
+  const FloatReceiver receiver = float_receiver(list, x);
+  alignas(64) std::int32_t jumps[kChunk];
+  out.places.resize(list.size());
+  out.jumps.resize(list.size());
+  std::size_t found = 0;
+  for (std::size_t first = 0; first < list.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, list.size() - first);
+    sift_range(columns, first, static_cast<int>(count), receiver, jumps);
+    const std::int32_t* places = list.places() + first;
+    for (std::size_t i = 0; i < count; ++i) {
+      out.places[found] = places[i];
+      out.jumps[found] = jumps[i];
+      found += jumps[i] != 0 ? 1 : 0;
+    }
+  }
+  out.places.resize(found);
+  out.jumps.resize(found);
+}
+
+int sift_one(const EdgeList& list, std::size_t i, const Vec3& x) {
+  std::int32_t jump = 0;
+  sift_range(Columns(list), i, 1, float_receiver(list, x), &jump);
+  return jump;
 }
 
 }  // namespace penumbra::detail

@@ -3,7 +3,7 @@
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PENUMBRA_VECTOR_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2", "default")))
+#define PENUMBRA_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
 #define PENUMBRA_INLINE __attribute__((always_inline)) inline  // into clones, or they stay scalar
 #else
 #define PENUMBRA_VECTOR_CLONES

@@ -56,5 +56,7 @@ void bench_d_buffer(const std::vector<std::string>& scenes);
 
 /// silhouette_bench.cpp: the accurate rung against rays, for one scene of data/scenes.
 void time_silhouettes(const std::string& name);
+/// The same file: 1,000 times the faces, and lights of 16 times the radius.
+void time_silhouette_growth();
 
 }  // namespace penumbra::bench

@@ -26,10 +26,12 @@ int main(int argc, char** argv) {
       time_silhouettes(name);
     known = true;
   }
+  if (wanted("growth")) time_silhouette_growth(), known = true;
   if (wanted("occlusion")) bench_occlusion_textures(), known = true;
   if (known) return 0;
-  std::fprintf(stderr,
-               "penumbra_bench: no part \"%s\"; there are price, dbuffer, silhouette, occlusion and all\n",
-               part.c_str());
+  std::fprintf(
+      stderr,
+      "penumbra_bench: no part \"%s\"; there are price, dbuffer, silhouette, growth, occlusion and all\n",
+      part.c_str());
   return 2;
 }

@@ -1,7 +1,10 @@
-// The accurate rung against rays: medians of interleaved frames, visibility alone.
+// The accurate rung against rays: medians of interleaved frames, visibility alone; what is certified; and how
+// frames grow with faces and with the light.
 #include <cstdio>
 #include <string>
+#include <unordered_map>
 
+#include "mesh/shapes.h"
 #include "render/silhouette.h"
 #include "tests/bench/bench_support.h"
 
@@ -36,10 +39,85 @@ void time_frame(const Scene& scene, const RayScene& rays, const SurfaceBuffer& s
   times.reference.push_back(trace_reference(scene, rays, surface, pixels, options).milliseconds);
 }
 
+/// How much of what may be certified is: pixels that some of 1,024 rays without the horizon find hidden are
+/// not lit, and those that some ray finds free are not in umbra; the others may be.
+struct CertifiedShares {
+  double lit, umbra;
+};
+
+CertifiedShares certified_shares(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+                                 const std::vector<std::int8_t>& region) {
+  std::vector<std::uint32_t> open;
+  double lit = 0.0, umbra = 0.0, may_be_lit = 0.0, may_be_umbra = 0.0;
+  for (std::uint32_t i = 0; i < region.size(); ++i) {
+    if (!surface.hit(i)) continue;
+    if (region[i] < 0) open.push_back(i);
+    lit += region[i] == 0 ? 1.0 : 0.0;
+    umbra += region[i] == 2 ? 1.0 : 0.0;
+  }
+  ReferenceOptions options;
+  options.samples = 1024;
+  for (const float o : trace_reference(scene, rays, surface, open, options, true).unblocked) {
+    may_be_lit += o == 1.0f ? 1.0 : 0.0;
+    may_be_umbra += o == 0.0f ? 1.0 : 0.0;
+  }
+  const auto share = [](double a, double b) { return a + b > 0.0 ? a / (a + b) : 1.0; };
+  return {share(lit, may_be_lit), share(umbra, may_be_umbra)};
+}
+
+/// Every face cut in four at the middles of its sides.
+TriangleMesh cut_in_four(const TriangleMesh& mesh) {
+  std::vector<Vec3> points(mesh.positions().begin(), mesh.positions().end());
+  std::vector<IndexedTriangle> faces;
+  std::unordered_map<std::uint64_t, std::uint32_t> middles;
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+    const auto [low, high] = std::minmax(a, b);
+    const auto [at, is_new] =
+        middles.try_emplace(std::uint64_t{high} << 32 | low, static_cast<std::uint32_t>(points.size()));
+    if (is_new) points.push_back(0.5 * (points[a] + points[b]));
+    return at->second;
+  };
+  for (const IndexedTriangle& t : mesh.triangles()) {
+    const std::uint32_t p = middle(t[0], t[1]), q = middle(t[1], t[2]), r = middle(t[2], t[0]);
+    faces.push_back({t[0], p, r});
+    faces.push_back({p, t[1], q});
+    faces.push_back({r, q, t[2]});
+    faces.push_back({p, q, r});
+  }
+  return TriangleMesh::build(points, faces);
+}
+
+/// Median milliseconds of frames.
+double frame(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface) {
+  std::vector<double> times;
+  for (int i = 0; i <= kFrames; ++i) {
+    const double t = total(silhouette_visibility(scene, rays, surface).stages);
+    if (i > 0) times.push_back(t);
+  }
+  return median(times);
+}
+
+/// One line: faces, band edges, frame; returns the frame.
+double time_growth(const char* what, const Scene& scene, double first) {
+  const RayScene rays(scene, 0);
+  const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
+  const double time = frame(scene, rays, surface);
+  const SilhouetteCounts c = silhouette_visibility(scene, rays, surface).counts;
+  std::printf("%-24s %8zu faces, %7zu edges in the band: %7.1f ms, %.2f× the first; %.1f MiB\n", what,
+              c.faces, c.band_edges, time, first > 0.0 ? time / first : 1.0,
+              static_cast<double>(c.bytes) / 1048576.0);
+  std::fflush(stdout);
+  return first > 0.0 ? first : time;
+}
+
+Scene bench_scene(const std::string& name) {
+  return load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+}
+
 }  // namespace
 
 void time_silhouettes(const std::string& name) {
-  const Scene scene = load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+  const Scene scene = bench_scene(name);
   const RayScene rays(scene, 0);
   const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
   Times times;
@@ -47,18 +125,48 @@ void time_silhouettes(const std::string& name) {
     if (i == 1) times = {};  // the first frame warms up
     time_frame(scene, rays, surface, times);
   }
-  const SilhouetteCounts c = silhouette_visibility(scene, rays, surface).counts;
+  const SilhouetteResult r = silhouette_visibility(scene, rays, surface);
+  const SilhouetteCounts& c = r.counts;
+  const CertifiedShares shares = certified_shares(scene, rays, surface, r.region);
   const double ours = median(times.silhouette);
   std::printf(
       "%-24s silhouette %8.1f ms; rays %d only where open %6.1f×, everywhere %6.1f× that; %zu integrated, "
-      "%.1f "
-      "edges each of %.1f listed; %.1f MiB of lists\n",
+      "%.1f edges each of %.1f listed; certified: %.4f of what may be lit, %.3f of umbra; %.1f MiB of lists, "
+      "peak %.0f MiB\n",
       name.c_str(), ours, kSamples, median(times.rays) / ours, median(times.reference) / ours, c.integrated,
       static_cast<double>(c.segments) / static_cast<double>(std::max<std::size_t>(1, c.integrated)),
       static_cast<double>(c.listed_edges) /
           static_cast<double>(std::max<std::size_t>(1, c.tiles - c.empty_tiles)),
-      static_cast<double>(c.bytes) / 1048576.0);
+      shares.lit, shares.umbra, static_cast<double>(c.bytes) / 1048576.0, peak_memory_mib());
   std::fflush(stdout);
+}
+
+void time_silhouette_growth() {
+  Scene scene = bench_scene("sphere-medium");
+  SceneObject& caster = scene.objects.back();
+  const Bounds box = bounds_of(caster.mesh.positions());
+  double first = 0.0;
+  for (int levels = 3; levels <= 8; ++levels) {
+    caster.mesh = make_icosphere(box.center(), 0.5 * (box.high.x - box.low.x), levels);
+    first = time_growth("sphere", scene, first);
+  }
+  scene = bench_scene("torus-medium");
+  first = 0.0;
+  for (int i = 0; i <= 5; ++i) {
+    if (i > 0) scene.objects.back().mesh = cut_in_four(scene.objects.back().mesh);
+    first = time_growth("torus, cut in four", scene, first);
+  }
+  for (const double scale : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    scene = bench_scene("knot1-medium");
+    scene.light.radius *= scale;
+    const RayScene rays(scene, 0);
+    const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
+    Times times;
+    for (int i = 0; i <= kFrames; ++i) time_frame(scene, rays, surface, times);
+    std::printf("knot1, radius %-9.3g silhouette %7.1f ms, rays only where open %7.1f, everywhere %7.1f\n",
+                scene.light.radius, median(times.silhouette), median(times.rays), median(times.reference));
+    std::fflush(stdout);
+  }
 }
 
 }  // namespace penumbra::bench

@@ -1,7 +1,9 @@
 // The steps of the accurate rung, one by one.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "render/silhouette_fuse.h"
 #include "render/silhouette_gather.h"
@@ -89,7 +91,7 @@ TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
     const DiskPart part(i % 2 == 0 ? no_horizon() : random_horizon(random));
     const std::vector<Segment> segments = random_polygons(random, 1 + i % 4);
     Cut cut;
-    cut_segments(segments, part, cut);
+    cut_segments(segments, 0, part, cut);
     ASSERT_TRUE(cut.closed);
     if (cut.segments.empty()) continue;
     const Fused slabs = fuser.by_slabs(cut, part), rows = fuser.by_rows(cut, part, 1024);
@@ -120,6 +122,26 @@ TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
   EXPECT_LE(worst_points, 0.02) << "cells of 1/100 along boundaries of length below 20";
 }
 
+TEST(Rows, VectorsAgreeWithRowsSortedSingly) {
+  Random random(19);
+  Rows together, singly;
+  for (int i = 0; i < 200; ++i) {
+    const DiskPart part(i % 2 == 0 ? no_horizon() : random_horizon(random));
+    const std::vector<Segment> segments = random_polygons(random, 1 + i % 60);
+    Cut cut;
+    cut_segments(segments, 0, part, cut);
+    const int rows = 4 + i % 90;
+    const RowSums a = together.sweep(cut, part, rows), b = singly.sweep_singly(cut, part, rows);
+    ASSERT_EQ(a.length, b.length);
+    ASSERT_EQ(a.first, b.first);
+    ASSERT_EQ(a.second, b.second);
+    ASSERT_EQ(a.lowest, b.lowest);
+    ASSERT_EQ(a.lowest_length, b.lowest_length);
+    ASSERT_EQ(a.levels, b.levels);
+    for (int k = 0; k < 2; ++k) ASSERT_EQ(a.aims[k], b.aims[k]);
+  }
+}
+
 TEST(Integrate, IsExactForOneChord) {
   Random random(23);
   for (int i = 0; i < 500; ++i) {
@@ -130,7 +152,7 @@ TEST(Integrate, IsExactForOneChord) {
     const std::vector<Segment> segments{{foot - reach * d, foot + reach * d, -1}};
     const DiskPart part(no_horizon());
     Cut cut;
-    cut_segments(segments, part, cut);
+    cut_segments(segments, 0, part, cut);
     Fused out;
     if (!fuse_chain(cut, part, out)) continue;  // too near the rim for a ray
     EXPECT_NEAR(out.area / testing::kPi, half_plane_area(chord.delta), 1e-9) << i;
@@ -157,6 +179,16 @@ Band random_band(Random& random, int count, bool closed) {
   return make_band(scene, UnitLight(scene.light));
 }
 
+/// The same segments to the last bit, in any order.
+void expect_same_segments(std::vector<Segment> p, std::vector<Segment> q) {
+  const auto numbers = [](const Segment& s) { return std::tuple(s.a.x, s.a.y, s.b.x, s.b.y, s.jump); };
+  const auto before = [&](const Segment& s, const Segment& t) { return numbers(s) < numbers(t); };
+  std::sort(p.begin(), p.end(), before);
+  std::sort(q.begin(), q.end(), before);
+  ASSERT_EQ(p.size(), q.size());
+  for (std::size_t i = 0; i < p.size(); ++i) ASSERT_EQ(numbers(p[i]), numbers(q[i]));
+}
+
 TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
   Random random(31);
   std::size_t kept = 0, near = 0, listed = 0;
@@ -170,7 +202,9 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
           {middle + random.point(round % 3 == 0 ? 2.0 : 0.1), {0, 0, -1}, no_horizon(), false, 0});
     Shaft shaft(receivers, band.extent);
     shaft.tighten(receivers);
-    std::vector<std::uint32_t> edges, narrowed, sifted;
+    std::vector<std::uint32_t> edges, narrowed;
+    Sifted sifted;
+    Sight sight;
     tree.gather(shaft, edges);
     EdgeList list, half;
     list.assign(band, edges, shaft.middle());
@@ -183,15 +217,36 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
       const Vec3& x = receivers[r].x;
       const EdgeList& l = r < 4 ? half : list;
       sift(l, x, sifted);
-      std::vector<std::uint32_t> singly;
-      for (std::uint32_t i = 0; i < l.size(); ++i)
-        if (sift_one(l, i, x)) singly.push_back(i);
-      ASSERT_EQ(sifted, singly);
+      Sifted singly;
+      for (std::uint32_t i = 0; i < l.size(); ++i) {
+        const int jump = sift_one(l, i, x);
+        if (jump == 0) continue;
+        singly.places.push_back(l.place(i));
+        singly.jumps.push_back(jump);
+      }
+      ASSERT_EQ(sifted.places, singly.places);
+      ASSERT_EQ(sifted.jumps, singly.jumps);
+      std::vector<Segment> segments;
       std::size_t found = 0, expected = 0;
-      for (const std::uint32_t i : sifted) found += see(l[i], x, 1e-6).near ? 1 : 0;
+      for (std::size_t i = 0; i < sifted.places.size(); ++i) {
+        const BandEdge& e = l.edge(sifted.places[i]);
+        if (sifted.jumps[i] != Sifted::kUnsure) {
+          ASSERT_EQ(sifted.jumps[i], jump_at(e, x));
+        }
+        const Projection p = see(e, x, 1e-6);
+        found += p.near ? 1 : 0;
+        if (p.near && p.segment.jump != 0) segments.push_back(p.segment);
+      }
+      look(l, x, no_horizon(), 1e-6, sight);
+      expect_same_segments(sight.segments, segments);
+      ASSERT_EQ(sight.certain, found == 0);
+      for (std::size_t i = 0; i < sight.segments.size(); ++i) {
+        const Segment& s = sight.segments[i];
+        ASSERT_TRUE(i >= sight.inside || (glm::dot(s.a, s.a) < 1.0 && glm::dot(s.b, s.b) < 1.0));
+      }
       for (const BandEdge& e : band.edges) expected += see(e, x, 1e-6).near ? 1 : 0;
       ASSERT_EQ(found, expected) << "round " << round;
-      kept += sifted.size(), near += found, listed += l.size();
+      kept += sifted.places.size(), near += found, listed += l.size();
     }
   }
   std::printf("%zu listed, %zu sifted, %zu near\n", listed, kept, near);

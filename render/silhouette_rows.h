@@ -1,0 +1,89 @@
+// Accurate rung, in step 5: scanlines across the disk with exact intervals, for many segments.
+//
+// In: segments inside D, at which the number L of hiding faces changes. Out: how long each row lies at L, as
+// far as fusing asks (silhouette_fuse.h): the lowest level and its length, and the moments of L. Rows are
+// lanes: their crossings are sorted and swept many rows at a time, without branches. A crossing is one
+// number, its x with the change of L in the last three bits of the mantissa, so that sorting moves both.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "render/silhouette_integrate.h"
+
+namespace penumbra::detail {
+
+struct RowSums {
+  double length = 0.0, first = 0.0, second = 0.0;  ///< Σ length · L^k over all intervals, k = 0, 1, 2
+  double lowest = 0.0;                             ///< the lowest level
+  double lowest_length = 0.0;
+  int levels = 0;  ///< how many were met
+  std::array<glm::dvec2, 2>
+      aims;  ///< middles of long intervals at the lowest level, in rows of either parity
+};
+
+/// Numbers that are added, compared and chosen four at a time (an extension of GCC and clang).
+inline constexpr int kRowLanes = 4;
+using Reals = double __attribute__((vector_size(kRowLanes * sizeof(double))));
+using Integers = std::int64_t __attribute__((vector_size(kRowLanes * sizeof(std::int64_t))));
+
+/// One crossing of each of some neighbouring rows. (A class, so that vectors of it are aligned.)
+struct alignas(kRowLanes * sizeof(double)) RowKeys {
+  Reals x;
+};
+
+/// Some neighbouring rows on their way from left to right.
+struct alignas(kRowLanes * sizeof(double)) RowLanes {
+  Reals left, right;            ///< ends
+  Reals from, level;            ///< where the interval at hand begins, and its L
+  Reals length, first, second;  ///< as in RowSums, so far
+  Reals lowest, lowest_length;
+  Reals best, middle;  ///< of the longest interval at the lowest level
+  Integers seen;       ///< bit L mod 64 for each level met
+};
+
+/// For one receiver after the other, with memory kept between them.
+class Rows {
+ public:
+  /// `rows` at even distances across D. Cost for s segments with c crossings, at most m in a row: s + c +
+  /// rows m².
+  RowSums sweep(const Cut& cut, const DiskPart& part, int rows);
+  /// The same with rows sorted one by one and code for any processor: the same bits, for tests.
+  RowSums sweep_singly(const Cut& cut, const DiskPart& part, int rows);
+
+ private:
+  struct CrossingSegment {
+    const Segment* segment;
+    int from, to;  ///< the rows above its ends
+  };
+  struct Sums {
+    RowSums sums;
+    std::array<double, 2> best{};
+    std::uint64_t seen = 0;
+  };
+
+  double height(int row) const { return bottom_ + (row + 0.5) * spacing_; }
+  int row_above(double y) const;
+  void place_rows(const DiskPart& part, int rows);
+  void find_crossing(const Cut& cut);
+  void cross(const Cut& cut);
+  void start_levels(const Cut& cut, const DiskPart& part);
+  void start(int first, RowLanes& lanes) const;
+  void add(const RowLanes& lanes, int first, Sums& sums) const;
+  template <class Sweep>
+  RowSums sweep_with(const Cut& cut, const DiskPart& part, int rows, const Sweep& sweep_from);
+
+  int rows_ = 0;
+  std::size_t stride_ = 0;  ///< rows, rounded up
+  double bottom_ = 0.0, spacing_ = 0.0, per_spacing_ = 0.0;
+  bool whole_disk_ = false;  ///< the ends of rows are those of the whole disk
+  std::vector<std::pair<double, double>> ends_;
+  std::vector<int> levels_;  ///< at left ends
+  std::vector<CrossingSegment> crossing_;
+  std::vector<int> counts_;    ///< crossings of each row
+  std::vector<RowKeys> keys_;  ///< crossing k of row i is number k · stride + i
+};
+
+}  // namespace penumbra::detail
