@@ -178,9 +178,6 @@ std::array<glm::vec2, 6> places_to_ask(const glm::vec2& aim) {
 std::vector<char> CenterRays::refuted(const DiskLight& light, std::span<const glm::vec2> aims,
                                       std::span<const float> cuts) const {
   std::vector<char> out(pixels_, 0);
-  std::vector<std::uint32_t> asked;  // places in pixel_
-  for (std::uint32_t k = 0; k < pixel_.size(); ++k)
-    if (glm::length(aims[pixel_[k]]) <= 1.0f) asked.push_back(k);
   const RayFrame& frame = rays_.frame();
   const LightFrame axes = light_frame(light);
   const double radius = light.radius * frame.scale;
@@ -219,11 +216,18 @@ std::vector<char> CenterRays::refuted(const DiskLight& light, std::span<const gl
     }
     for (std::size_t lane = 0; lane < lanes.size(); ++lane) out[pixel_[lanes[lane]]] = open[lane] != 0;
   };
-  rays_.impl().arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, (asked.size() + kLanes - 1) / kLanes, [&](std::size_t p) {
-      ask(std::span(asked).subspan(p * kLanes, std::min(kLanes, asked.size() - p * kLanes)));
-    });
-  });
+  const auto ask_in = [&](const tbb::blocked_range<std::size_t>& places) {
+    std::array<std::uint32_t, kLanes> lanes;  // places in pixel_
+    std::size_t count = 0;
+    for (std::size_t k = places.begin(); k < places.end(); ++k) {
+      if (glm::length(aims[pixel_[k]]) > 1.0f) continue;
+      lanes[count++] = static_cast<std::uint32_t>(k);
+      if (count == kLanes) ask(std::span(lanes)), count = 0;
+    }
+    if (count > 0) ask(std::span(lanes).first(count));
+  };
+  rays_.impl().arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixel_.size(), 4096), ask_in); });
   return out;
 }
 

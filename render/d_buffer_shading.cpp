@@ -196,11 +196,11 @@ void DBufferShading::test_center_by_depth(const Programs& programs, const DBuffe
 }
 
 /// Drops the entries that rays refute.
-void DBufferShading::check(const DiskLight& light, std::vector<float>& visibility) const {
-  std::vector<glm::vec2> aims(visibility.size());
+void DBufferShading::check(const DiskLight& light, std::vector<float>& visibility) {
+  aims_.resize(visibility.size());
   gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RG, GL_FLOAT, aims.data());
-  const std::vector<char> refuted = center_rays_->refuted(light, aims, cuts_);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RG, GL_FLOAT, aims_.data());
+  const std::vector<char> refuted = center_rays_->refuted(light, aims_, cuts_);
   for (std::size_t i = 0; i < visibility.size(); ++i)
     if (refuted[i]) visibility[i] = without_entries_[i];
 }

@@ -50,7 +50,7 @@ class DBufferShading {
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
                     GLuint records) const;
-  void check(const DiskLight& light, std::vector<float>& visibility) const;
+  void check(const DiskLight& light, std::vector<float>& visibility);
   void bind_textures(const gl::Program& program, const DBufferLayers& layers, GLuint records) const;
 
   const gl::Functions& gl_;
@@ -60,6 +60,7 @@ class DBufferShading {
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
   std::vector<float> cuts_, without_entries_;
+  std::vector<glm::vec2> aims_;
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
   std::vector<std::unique_ptr<Programs>> programs_;  ///< made when needed
