@@ -128,6 +128,8 @@ void Viewer::play() {
 
 // Sleeps where nothing is to be done: until an event, or until it is time to ask for the full picture.
 void Viewer::wait() {
+  // A press and its release may come at once: the window sees the second a frame later, without an event.
+  if (ImGui::IsAnyMouseDown()) frames_to_draw_ = 2;
   const bool busy = pointer_.dragging() || (!options_.screenshot.empty() && settled());
   if (frames_to_draw_ > 0) {
     --frames_to_draw_;

@@ -225,7 +225,8 @@ TEST_F(WindowTest, CutIsMovedAndTurned) {
   Json now = status();
   drag(now["widgets"]["cut"], -40, 0, "a nearer cut",
        [](const Json& s) { return s["cut"].get<double>() < 0.9; });
-  const Json at = status()["widgets"]["along y"];
+  const Json at =
+      until("the slider let go", [](const Json& s) { return !s["holding"]; })["widgets"]["along y"];
   tool("mousemove " + std::to_string(at[0].get<int>()) + " " + std::to_string(at[1].get<int>()) + " click 1");
   until("another axis", [](const Json& s) { return s["cut_axis"] == 2; });
 }
