@@ -81,7 +81,7 @@ class DBuffer {
   /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.
   /// Throws UsageError for a size or entries outside their range and before set_surface, SystemError where
   /// OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), and one or two rays a pixel with
-  /// CenterTest::kRay, as many again where entries apply with EntryCheck::kRays.
+  /// CenterTest::kRay, and up to six, mostly one, where entries apply with EntryCheck::kRays.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
   /// What the last frame left in the textures of the first target, by number, one grey a number: the first
   /// surface, penumbra entries, umbra entries before and behind the last surface; none that are empty.
