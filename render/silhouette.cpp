@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <glm/geometric.hpp>
 #include <mutex>
@@ -25,6 +26,8 @@ constexpr double kPi = std::numbers::pi;
 
 constexpr std::size_t kShortList = 24;     // edges; shorter lists are not narrowed
 constexpr std::size_t kFewReceivers = 16;  // a quarter of a tile: narrowing for fewer costs what it saves
+constexpr std::size_t kManyBlocks = 64;    // lists of more are narrowed down to receivers block by block
+constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
 
 /// What one thread keeps between tiles, and what it has counted.
 struct Workspace {
@@ -32,7 +35,9 @@ struct Workspace {
   std::vector<Fused> fused;   ///< one a receiver
   std::vector<char> certain;  ///< one a receiver
   std::vector<std::uint32_t> edges;
-  EdgeList list, part_list;  ///< of the tile, and of the part at hand
+  std::array<std::vector<Siblings>, 3> blocks;  ///< of the tile, and of its parts
+  std::vector<Siblings> own_blocks;             ///< of the receiver at hand
+  EdgeList list, part_list;                     ///< of the tile, and of the part at hand
   Sight sight;
   Cut cut;
   Fuser fuser;
@@ -43,7 +48,8 @@ struct Workspace {
   std::size_t bytes() const {
     std::size_t sum =
         receivers.capacity() * (sizeof(Receiver) + sizeof(Fused)) + edges.capacity() * sizeof(edges[0]);
-    return sum + list.bytes() + part_list.bytes();
+    for (const auto& b : blocks) sum += b.capacity() * sizeof(b[0]);
+    return sum + own_blocks.capacity() * sizeof(own_blocks[0]) + list.bytes() + part_list.bytes();
   }
 };
 
@@ -64,13 +70,14 @@ std::size_t halve(std::span<Receiver> receivers) {
 class Evaluation {
  public:
   Evaluation(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, const Band& band,
-             const BandTree& tree, const UnitLight& light, const SilhouetteOptions& options,
-             SilhouetteResult& out)
+             const BandTree& tree, const EdgeBlocks& blocks, const UnitLight& light,
+             const SilhouetteOptions& options, SilhouetteResult& out)
       : scene_(scene),
         rays_(rays),
         surface_(surface),
         band_(band),
         tree_(tree),
+        blocks_(blocks),
         light_(light),
         options_(options),
         offset_(receiver_offset(rays.frame())),
@@ -84,7 +91,10 @@ class Evaluation {
   void add_receiver(std::size_t pixel, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
   void divide(std::size_t first, std::size_t last, Workspace& w) const;
+  void divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const;
   void evaluate(std::size_t i, const EdgeList& list, Workspace& w) const;
+  void evaluate_blocks(std::size_t i, const std::vector<Siblings>& list, Workspace& w) const;
+  void judge(std::size_t i, Workspace& w) const;
   void integrate(std::size_t i, const DiskPart& part, Workspace& w) const;
   void certify(const RayTask& task, Workspace& w) const;
   void decide(Workspace& w) const;
@@ -95,6 +105,7 @@ class Evaluation {
   const SurfaceBuffer& surface_;
   const Band& band_;
   const BandTree& tree_;
+  const EdgeBlocks& blocks_;
   const UnitLight& light_;
   const SilhouetteOptions& options_;
   const double offset_, slack_;
@@ -111,18 +122,25 @@ void Evaluation::tile(int column, int row, Workspace& w) const {
     ++w.counts.empty_tiles;
     return light_up(w);
   }
-  w.edges.clear();
+  w.blocks[0].clear();
   if (!tree_.misses(shaft)) {
     shaft.tighten(w.receivers);
-    tree_.gather(shaft, w.edges);
+    tree_.gather(shaft, w.blocks[0]);
   }
-  w.counts.listed_edges += w.edges.size();
-  w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
-  w.list.assign(band_, w.edges, shaft.middle());
   w.fused.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
   w.tasks.clear();
-  divide(0, w.receivers.size(), w);
+  const std::size_t blocks = count_blocks(w.blocks[0]);
+  if (blocks > kManyBlocks) {
+    w.counts.listed_edges += blocks * BandTree::kFanOut;
+    divide_blocks(0, w.receivers.size(), 0, w);
+  } else {
+    gather_edges(band_, w.blocks[0], shaft, w.edges);
+    w.counts.listed_edges += w.edges.size();
+    w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
+    w.list.assign(band_, w.edges, shaft.middle());
+    divide(0, w.receivers.size(), w);
+  }
   decide(w);
 }
 
@@ -150,6 +168,26 @@ void Evaluation::divide(std::size_t first, std::size_t last, Workspace& w) const
   narrow(w.list, shaft, w.edges);
   w.part_list.assign(w.list, w.edges);
   for (std::size_t i = first; i < last; ++i) evaluate(i, w.part_list, w);
+}
+
+/// The same with lists of blocks: halved until parts are small enough to narrow the list for, three times
+/// over.
+void Evaluation::divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const {
+  const std::vector<Siblings>& list = w.blocks[level];
+  if (level + 1 == kPartSizes.size()) {
+    for (std::size_t i = first; i < last; ++i) evaluate_blocks(i, list, w);
+    return;
+  }
+  const auto part = std::span(w.receivers).subspan(first, last - first);
+  if (part.size() > kPartSizes[level + 1]) {
+    const std::size_t middle = first + halve(part);
+    divide_blocks(first, middle, level, w);
+    return divide_blocks(middle, last, level, w);
+  }
+  Shaft shaft(part, band_.extent);
+  shaft.tighten(part);
+  tree_.narrow(list, shaft, w.blocks[level + 1]);
+  divide_blocks(first, last, level + 1, w);
 }
 
 void Evaluation::collect(int column, int row, Workspace& w) const {
@@ -208,9 +246,23 @@ void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) co
 
 void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
   const Receiver& r = w.receivers[i];
-  const DiskPart part(r.horizon);
   look(list, r.x, r.horizon, slack_, w.sight);
   w.counts.projected_edges += list.size();
+  judge(i, w);
+}
+
+void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& list, Workspace& w) const {
+  const Receiver& r = w.receivers[i];
+  tree_.narrow(list, r, w.own_blocks);
+  look(blocks_, w.own_blocks, r.x, r.horizon, slack_, w.sight);
+  w.counts.projected_edges += count_blocks(w.own_blocks) * BandTree::kFanOut;
+  judge(i, w);
+}
+
+/// What a receiver sees, integrated; or the certificate.
+void Evaluation::judge(std::size_t i, Workspace& w) const {
+  const Receiver& r = w.receivers[i];
+  const DiskPart part(r.horizon);
   // Below a horizon that cuts the disk edges may have been left out: nothing is certified there.
   w.certain[i] = w.sight.certain && !part.is_cut();
   if (w.sight.segments.empty()) {
@@ -333,10 +385,11 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   rays.impl().arena.execute([&] { band = make_band(scene, light); });
   clock.finish("band");
   const BandTree tree = rays.impl().arena.execute([&] { return BandTree(band); });
+  const EdgeBlocks blocks = rays.impl().arena.execute([&] { return EdgeBlocks(band); });
   clock.finish("band_tree");
 
   tbb::enumerable_thread_specific<Workspace> spaces;
-  const Evaluation evaluation(scene, rays, surface, band, tree, light, options, out);
+  const Evaluation evaluation(scene, rays, surface, band, tree, blocks, light, options, out);
   for_each_tile(rays, surface, spaces, progress,
                 [&](int column, int row, Workspace& w) { evaluation.tile(column, row, w); });
   std::vector<std::uint32_t> fallback;
@@ -357,7 +410,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   out.counts.mesh_edges = band.mesh_edges;
   out.counts.band_edges = band.edges.size();
   out.counts.cut_edges = band.cut_edges;
-  out.counts.bytes += tree.bytes();
+  out.counts.bytes += band.edges.size() * sizeof(BandEdge) + tree.bytes() + blocks.bytes();
   out.stages = clock.stages();
   return out;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -37,12 +38,12 @@ struct Eye {
 };
 
 PENUMBRA_VECTOR_CLONES
-void project(const double* ends, const std::int32_t* places, int count, const Eye& eye, double* __restrict ax,
-             double* __restrict ay, double* __restrict bx, double* __restrict by,
+void project(const double* ends, std::int32_t stride, const std::int32_t* places, int count, const Eye& eye,
+             double* __restrict ax, double* __restrict ay, double* __restrict bx, double* __restrict by,
              std::int64_t* __restrict states) {
   const Eye e = eye;
   for (int i = 0; i < count; ++i) {
-    const std::int32_t at = 6 * places[i];
+    const std::int32_t at = stride * places[i];
     const double wa = e.z - ends[at + 2], wb = e.z - ends[at + 5];
     const double ga = e.z / wa, gb = e.z / wb;
     const double px = e.x + (ends[at] - e.x) * ga, py = e.y + (ends[at + 1] - e.y) * ga;
@@ -74,7 +75,53 @@ void see_one(const BandEdge& edge, const Vec3& x, const Chord& horizon, double s
   out.crossing.push_back(p.segment);
 }
 
+/// The sifted edges: in vectors, and then one by one what they left open. `ends`: those of the edge at place
+/// i from stride · i.
+template <class EdgeAt>
+void see_sifted(const double* ends, std::int32_t stride, const EdgeAt& edge_at, const Vec3& x,
+                const Chord& horizon, double slack, Sight& out) {
+  const std::size_t count = out.sifted.places.size();
+  for (auto& column : out.ends) column.resize(std::max(column.size(), count));
+  out.states.resize(std::max(out.states.size(), count));
+  out.segments.resize(count);
+  const double reach = 1.0 + slack;
+  const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
+               *by = out.ends[3].data();
+  project(ends, stride, out.sifted.places.data(), static_cast<int>(count),
+          {x.x, x.y, x.z, kHair * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
+          out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t state = out.states[i];
+    const std::int32_t jump = out.sifted.jumps[i];
+    const bool sure = jump != Sifted::kUnsure;
+    out.segments[inside] = {{ax[i], ay[i]}, {bx[i], by[i]}, jump};
+    if (state == kInside && sure) {
+      ++inside;
+      continue;
+    }
+    if (state == kFar) continue;
+    if (state == kUnclear || !sure) {
+      see_one(edge_at(out.sifted.places[i]), x, horizon, slack, out);
+    } else {
+      out.certain = false;
+      if (state == kCrosses) out.crossing.push_back(out.segments[inside]);
+    }
+  }
+  out.inside = inside;
+  out.certain = out.certain && inside == 0;
+  out.segments.resize(inside);
+  out.segments.insert(out.segments.end(), out.crossing.begin(), out.crossing.end());
+}
+
 }  // namespace
+
+void Sight::clear() {
+  segments.clear();
+  inside = 0;
+  certain = true;
+  crossing.clear();
+}
 
 double certificate_slack(double extent) {
   return 1e-6 + 0x1p-26 * extent;
@@ -106,48 +153,30 @@ Projection see(const BandEdge& e, const Vec3& x, double slack) {
 }
 
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
-  out.segments.clear();
-  out.inside = 0;
-  out.certain = true;
-  out.crossing.clear();
+  out.clear();
   if (list.size() <= kFewEdges) {
     for (std::size_t i = 0; i < list.size(); ++i) see_one(list.edge(list.place(i)), x, horizon, slack, out);
     std::swap(out.segments, out.crossing);
     return;
   }
   sift(list, x, out.sifted);
-  const std::size_t count = out.sifted.places.size();
-  for (auto& column : out.ends) column.resize(std::max(column.size(), count));
-  out.states.resize(std::max(out.states.size(), count));
-  out.segments.resize(count);
-  const double reach = 1.0 + slack;
-  const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
-               *by = out.ends[3].data();
-  project(list.ends(), out.sifted.places.data(), static_cast<int>(count),
-          {x.x, x.y, x.z, kHair * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
-          out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
-  std::size_t inside = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int64_t state = out.states[i];
-    const std::int32_t jump = out.sifted.jumps[i];
-    const bool sure = jump != Sifted::kUnsure;
-    out.segments[inside] = {{ax[i], ay[i]}, {bx[i], by[i]}, jump};
-    if (state == kInside && sure) {
-      ++inside;
-      continue;
-    }
-    if (state == kFar) continue;
-    if (state == kUnclear || !sure) {
-      see_one(list.edge(out.sifted.places[i]), x, horizon, slack, out);
-    } else {
-      out.certain = false;
-      if (state == kCrosses) out.crossing.push_back(out.segments[inside]);
-    }
-  }
-  out.inside = inside;
-  out.certain = out.certain && inside == 0;
-  out.segments.resize(inside);
-  out.segments.insert(out.segments.end(), out.crossing.begin(), out.crossing.end());
+  see_sifted(
+      list.ends(), 6, [&](std::int32_t place) -> const BandEdge& { return list.edge(place); }, x, horizon,
+      slack, out);
+}
+
+void look(const EdgeBlocks& blocks, const std::vector<Siblings>& list, const Vec3& x, const Chord& horizon,
+          double slack, Sight& out) {
+  static_assert(offsetof(BandEdge, b) == 3 * sizeof(double) && sizeof(BandEdge) % sizeof(double) == 0);
+  constexpr std::int32_t kStride = sizeof(BandEdge) / sizeof(double);
+  out.clear();
+  if (list.empty()) return;
+  blocks.sift(list, x, out.sifted);
+  const std::vector<BandEdge>& edges = blocks.band().edges;
+  see_sifted(
+      &edges[0].a.x, kStride,
+      [&](std::int32_t place) -> const BandEdge& { return edges[static_cast<std::size_t>(place)]; }, x,
+      horizon, slack, out);
 }
 
 }  // namespace penumbra::detail

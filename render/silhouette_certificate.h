@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "render/disk_area.h"
+#include "render/silhouette_blocks.h"
 #include "render/silhouette_list.h"
 
 namespace penumbra::detail {
@@ -45,6 +46,7 @@ struct Sight {
   std::vector<Segment> segments;
   std::size_t inside = 0;  ///< so many come first whose ends both lie in the disk and above the horizon
   bool certain = false;    ///< no edge of the list meets the disk
+  void clear();
 
   // Working memory.
   Sifted sifted;
@@ -53,5 +55,8 @@ struct Sight {
   std::vector<Segment> crossing;
 };
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out);
+/// The same for edges in blocks.
+void look(const EdgeBlocks& blocks, const std::vector<Siblings>& list, const Vec3& x, const Chord& horizon,
+          double slack, Sight& out);
 
 }  // namespace penumbra::detail

@@ -5,8 +5,8 @@
 //  - it lies outside of a plane that bounds the receivers and the disk together (`Shaft`),
 //  - it lies below the tangent planes of all receivers, where those cut the disk,
 //  - its faces keep their sides for all receivers, and its jump is 0.
-// The same tests run over a tree of boxes first, each with bounds on its edges' planes, so that the cost of a
-// tile follows what it keeps.
+// The same tests run over a tree of boxes first (silhouette_tree.h), so that the cost of a tile follows what
+// it keeps.
 #pragma once
 
 #include <array>
@@ -54,7 +54,12 @@ class Shaft {
   Side side_plane(int k) const;
   const Vec3& middle() const { return middle_; }
   const Vec3& half() const { return half_; }
-  double margin() const { return margin_; }
+  /// Some receiver's horizon cuts the disk; the box of all receivers' normals, and the least normal·(receiver
+  /// - middle) of all.
+  bool has_horizon() const { return horizon_; }
+  const Vec3& normal_low() const { return normal_low_; }
+  const Vec3& normal_high() const { return normal_high_; }
+  double lowest() const { return lowest_; }
 
  private:
   bool below_horizons(const Vec3& p) const;
@@ -65,33 +70,6 @@ class Shaft {
   bool horizon_ = false;
   Vec3 normal_low_, normal_high_;  ///< box of their normals
   double lowest_ = 0.0;            ///< least normal·(receiver - middle)
-};
-
-/// Boxes over the band, eight children a node, along a Morton curve.
-class BandTree {
- public:
-  /// Reorders the band's edges along the curve. Cost O(E log E).
-  explicit BandTree(Band& band);
-  /// True where `gather` finds nothing for certain, by the whole band's box.
-  bool misses(const Shaft& shaft) const;
-  /// Appends to `out`, in ascending order.
-  void gather(const Shaft& shaft, std::vector<std::uint32_t>& out) const;
-  std::size_t bytes() const;
-
- private:
-  struct Node {
-    Vec3 low, high;                ///< of the edges
-    Vec3 normal_low, normal_high;  ///< of their faces' planes
-    double near_low, near_high;    ///< of the planes' values at the box's middle, tolerance included
-    bool open;                     ///< has an edge with one face only
-  };
-  Node node_of(std::size_t first, std::size_t last) const;
-  static Node joined(const Node* first, const Node* last);
-  static bool one_sided(const Node& node, const Shaft& shaft);
-  void visit(const Shaft& shaft, std::size_t level, std::size_t node, std::vector<std::uint32_t>& out) const;
-
-  const Band& band_;
-  std::vector<std::vector<Node>> levels_;  ///< leaves first
 };
 
 }  // namespace penumbra::detail

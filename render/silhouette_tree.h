@@ -1,0 +1,74 @@
+// Accurate rung, in step 2: a hierarchy over the band, and which of its blocks a tile or a receiver looks at.
+//
+// In: the band. Out: its edges along a Morton curve, in blocks of eight; over the blocks a tree of eight
+// children a node. A node knows the box of its edges, and of their faces' planes a box of normals and the
+// range of values at the middle. So, on a fine surface, what is looked at follows the silhouette: a block is
+// dropped whole where its faces are all seen from the front, or all from behind.
+//
+// A block is dropped for a tile where it lies outside of the tile's shaft (silhouette_gather.h), below all
+// horizons, or where the planes of all its faces have one sign for all receivers; for one receiver x where it
+// lies outside of the cone from x to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or likewise. With M the
+// scene's extent in light radii, all is in float with a margin of 2^-17 M, and times 1 + (M + 1)/z where
+// projection enlarges errors: a sum here has a dozen terms of at most 7 M, each off by 2^-24 of that. What is
+// dropped is farther from the disk than the certificate's slack.
+//
+// Eight siblings are tested at once; lists name them by their parent and a mask.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "render/float_lanes.h"
+#include "render/silhouette_gather.h"
+
+namespace penumbra::detail {
+
+/// Some of eight siblings: bit i of `kept` is child 8 parent + i.
+struct Siblings {
+  std::uint32_t parent;
+  std::uint32_t kept;
+};
+
+class BandTree {
+ public:
+  static constexpr std::size_t kFanOut = kFloatLanes;
+
+  /// Reorders the band's edges along the curve; block i has edges 8 i and up. Cost O(E log E), on all cores.
+  explicit BandTree(Band& band);
+  /// True where `gather` finds nothing for certain, by the whole band's box.
+  bool misses(const Shaft& shaft) const;
+  /// The blocks that some receiver of the shaft may have to look at, ascending.
+  void gather(const Shaft& shaft, std::vector<Siblings>& out) const;
+  /// Of these blocks those that fewer receivers may have to look at. Cost: some 20 flops a block.
+  void narrow(const std::vector<Siblings>& list, const Shaft& shaft, std::vector<Siblings>& out) const;
+  /// Of these blocks those that one receiver may have to look at.
+  void narrow(const std::vector<Siblings>& list, const Receiver& receiver, std::vector<Siblings>& out) const;
+  std::size_t bytes() const;
+
+  /// Eight children's bounds: boxes, and of planes normals and values at the box's middle; each a middle and
+  /// half of a range.
+  struct alignas(kFloatLanes * sizeof(float)) Children {
+    std::array<Floats, 3> middle, half, normal, normal_half;
+    Floats across;  ///< the box's half diagonal in x and y
+    Floats value, value_half;
+  };
+
+ private:
+  struct Node;
+  Node node_of(const Band& band, std::size_t first, std::size_t last) const;
+  static Node joined(const Node* first, const Node* last);
+  std::vector<Children> packed(const std::vector<Node>& nodes) const;
+
+  double extent_ = 1.0;
+  Bounds box_;
+  std::vector<std::vector<Children>> levels_;  ///< blocks first
+};
+
+/// How many blocks.
+std::size_t count_blocks(const std::vector<Siblings>& list);
+/// Of the blocks' edges those that the shaft's receivers may have to look at, ascending.
+void gather_edges(const Band& band, const std::vector<Siblings>& blocks, const Shaft& shaft,
+                  std::vector<std::uint32_t>& out);
+
+}  // namespace penumbra::detail
