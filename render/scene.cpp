@@ -4,14 +4,14 @@ namespace penumbra {
 
 Bounds Scene::bounds() const {
   Bounds bounds;
-  for (const SceneObject& object : objects) bounds.add(bounds_of(object.mesh.positions()));
+  for (const SceneObject& object : objects) bounds.add(object.mesh.bounds());
   return bounds;
 }
 
 Bounds Scene::caster_bounds() const {
   Bounds bounds;
   for (const SceneObject& object : objects)
-    if (object.casts) bounds.add(bounds_of(object.mesh.positions()));
+    if (object.casts) bounds.add(object.mesh.bounds());
   return bounds;
 }
 

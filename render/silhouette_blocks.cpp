@@ -57,8 +57,10 @@ std::size_t sift_blocks(const Block* blocks, const Siblings* list, std::size_t c
 }  // namespace
 
 EdgeBlocks::EdgeBlocks(const Band& band)
-    : band_(band), blocks_((band.edges.size() + kFloatLanes - 1) / kFloatLanes) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size(), 512), [&](const auto& range) {
+    : band_(band),
+      size_((band.edges.size() + kFloatLanes - 1) / kFloatLanes),
+      blocks_(std::make_unique_for_overwrite<Block[]>(size_)) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size_, 512), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) fill(i);
   });
 }
@@ -67,22 +69,19 @@ EdgeBlocks::EdgeBlocks(const Band& band)
 /// between two faces that look the same way.
 void EdgeBlocks::fill(std::size_t block) {
   const auto set = [&](Plane& out, std::size_t lane, const FacePlane& plane) {
+    const double grain = 0x1p-20 * (std::abs(plane.offset) + 4.0 * band_.extent);
     out.x[lane] = static_cast<float>(plane.normal.x);
     out.y[lane] = static_cast<float>(plane.normal.y);
     out.z[lane] = static_cast<float>(plane.normal.z);
     out.offset[lane] = static_cast<float>(plane.offset);
-    out.tolerance[lane] =
-        static_cast<float>(plane.tolerance + 0x1p-20 * (std::abs(plane.offset) + 4.0 * band_.extent));
+    out.tolerance[lane] = plane.tolerance < 0.0 ? -1.0f : static_cast<float>(plane.tolerance + grain);
   };
-  Block& b = blocks_[block];
+  const FacePlane front{Vec3(0.0), 1.0, -1.0};
   for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
     const std::size_t i = block * kFloatLanes + lane;
     const bool is_edge = i < band_.edges.size();
-    const FacePlane none{Vec3(0.0), is_edge ? 0.0 : 1.0, -1.0};
-    set(b.left, lane, is_edge ? band_.edges[i].left : none);
-    set(b.right, lane, is_edge && band_.edges[i].has_right ? band_.edges[i].right : none);
-    if (!is_edge) b.left.tolerance[lane] = -1.0f;
-    if (!is_edge || !band_.edges[i].has_right) b.right.tolerance[lane] = -1.0f;
+    set(blocks_[block].left, lane, is_edge ? band_.edges[i].left : front);
+    set(blocks_[block].right, lane, is_edge ? band_.edges[i].right : front);
   }
 }
 
@@ -91,7 +90,7 @@ void EdgeBlocks::sift(const std::vector<Siblings>& list, const Vec3& x, Sifted& 
   for (const Siblings& s : list) most += static_cast<std::size_t>(std::popcount(s.kept)) * kFloatLanes;
   out.places.resize(most);
   out.jumps.resize(most);
-  const std::size_t found = sift_blocks(blocks_.data(), list.data(), list.size(), FloatPoint(x),
+  const std::size_t found = sift_blocks(blocks_.get(), list.data(), list.size(), FloatPoint(x),
                                         out.places.data(), out.jumps.data());
   out.places.resize(found);
   out.jumps.resize(found);

@@ -172,7 +172,7 @@ void look(const EdgeBlocks& blocks, const std::vector<Siblings>& list, const Vec
   out.clear();
   if (list.empty()) return;
   blocks.sift(list, x, out.sifted);
-  const std::vector<BandEdge>& edges = blocks.band().edges;
+  const std::span<const BandEdge> edges = blocks.band().edges;
   see_sifted(
       &edges[0].a.x, kStride,
       [&](std::int32_t place) -> const BandEdge& { return edges[static_cast<std::size_t>(place)]; }, x,

@@ -12,6 +12,8 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "render/scene.h"
@@ -39,15 +41,19 @@ class UnitLight {
 /// + |E2|), and that times a distance of at most 4M, over |N|, is what the tolerance bounds (with u = 2^-46).
 /// A face without area has normal 0, and no sign of it is certain.
 struct FacePlane {
-  Vec3 normal{0.0};
-  double offset = 0.0, tolerance = -1.0;
+  Vec3 normal;
+  double offset, tolerance;
   double value(const Vec3& x) const { return normal.x * x.x + normal.y * x.y + normal.z * x.z + offset; }
 };
 
+/// In place of a face that is missing: surely on neither side.
+inline const FacePlane kNoFace{Vec3(0.0), 0.0, -1.0};
+
+/// (Nothing is initialized by itself: a band's memory is first touched by whoever fills it.)
 struct BandEdge {
   Vec3 a, b;              ///< z ≥ 0
-  FacePlane left, right;  ///< of the faces that run a → b and b → a
-  bool has_right = false;
+  FacePlane left, right;  ///< of the faces that run a → b and b → a; kNoFace without a right one
+  bool has_right;
 };
 
 /// Faces on the left minus faces on the right of a → b, as seen from x.
@@ -56,13 +62,14 @@ inline int jump_at(const BandEdge& e, const Vec3& x) {
 }
 
 struct Band {
-  std::vector<BandEdge> edges;
+  std::span<const BandEdge> edges;  ///< in `memory`, along a Morton curve: neighbours lie close together
+  std::unique_ptr<BandEdge[]> memory;
   std::vector<Bounds> casters;  ///< box of each, in the light's frame
   double extent = 1.0;          ///< largest absolute coordinate in the scene, in light radii (at least 1)
   std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, cut_edges = 0;
 };
 
-/// Cost O(faces), on all cores. Deterministic. Requires radius > 0.
+/// Cost O(faces + band edges), on all cores. Deterministic. Requires radius > 0.
 Band make_band(const Scene& scene, const UnitLight& light);
 
 }  // namespace penumbra::detail

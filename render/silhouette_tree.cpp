@@ -1,7 +1,6 @@
 #include "render/silhouette_tree.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <bit>
@@ -14,39 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kGrain = 0x1p-17;  // of the extent, see the header
-
-/// Bits of x spread so that two others fit between them.
-std::uint64_t spread_bits(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
-
-std::uint64_t morton_code(const Vec3& p, const Bounds& box) {
-  std::uint64_t code = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double size = box.high[k] - box.low[k];
-    const double t = size > 0.0 ? std::clamp((p[k] - box.low[k]) / size, 0.0, 1.0) : 0.0;
-    code |= spread_bits(static_cast<std::uint64_t>(t * 0x1fffff)) << k;
-  }
-  return code;
-}
-
-std::vector<BandEdge> along_curve(const std::vector<BandEdge>& edges) {
-  Bounds box;
-  for (const BandEdge& e : edges) box.add(0.5 * (e.a + e.b));
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> order(edges.size());
-  for (std::uint32_t i = 0; i < edges.size(); ++i)
-    order[i] = {morton_code(0.5 * (edges[i].a + edges[i].b), box), i};
-  tbb::parallel_sort(order.begin(), order.end());  // all different: one order
-  std::vector<BandEdge> sorted;
-  sorted.reserve(edges.size());
-  for (const auto& [code, i] : order) sorted.push_back(edges[i]);
-  return sorted;
-}
 
 /// A linear function n·p + offset, positive outside by more than the margin; and how much it varies per
 /// half a box.
@@ -190,8 +156,7 @@ struct BandTree::Node {
   double near_low, near_high;    ///< of the planes' values at the box's middle, tolerance included
 };
 
-BandTree::BandTree(Band& band) : extent_(band.extent) {
-  band.edges = along_curve(band.edges);
+BandTree::BandTree(const Band& band) : extent_(band.extent) {
   std::vector<Node> nodes((band.edges.size() + kFanOut - 1) / kFanOut);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), 512), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)

@@ -1,9 +1,9 @@
 // Accurate rung, in step 2: a hierarchy over the band, and which of its blocks a tile or a receiver looks at.
 //
-// In: the band. Out: its edges along a Morton curve, in blocks of eight; over the blocks a tree of eight
-// children a node. A node knows the box of its edges, and of their faces' planes a box of normals and the
-// range of values at the middle. So, on a fine surface, what is looked at follows the silhouette: a block is
-// dropped whole where its faces are all seen from the front, or all from behind.
+// In: the band. Out: over blocks of eight edges, neighbours along its curve, a tree of eight children a node.
+// A node knows the box of its edges, and of their faces' planes a box of normals and the range of values at
+// the middle. So, on a fine surface, what is looked at follows the silhouette: a block is dropped whole where
+// its faces are all seen from the front, or all from behind.
 //
 // A block is dropped for a tile where it lies outside of the tile's shaft (silhouette_gather.h), below all
 // horizons, or where the planes of all its faces have one sign for all receivers; for one receiver x where it
@@ -34,8 +34,8 @@ class BandTree {
  public:
   static constexpr std::size_t kFanOut = kFloatLanes;
 
-  /// Reorders the band's edges along the curve; block i has edges 8 i and up. Cost O(E log E), on all cores.
-  explicit BandTree(Band& band);
+  /// Block i has edges 8 i and up. Cost O(E), on all cores.
+  explicit BandTree(const Band& band);
   /// True where `gather` finds nothing for certain, by the whole band's box.
   bool misses(const Shaft& shaft) const;
   /// The blocks that some receiver of the shaft may have to look at, ascending.

@@ -8,19 +8,18 @@ Silhouettes find_silhouettes(const TriangleMesh& mesh, const Classification& cla
     const Edge& edge = mesh.edges()[i];
     const EdgeId id{static_cast<std::uint32_t>(i)};
     const FaceClass left = classes.faces[index(edge.left)];
+    if (is_in_band(edge, classes)) result.band.push_back(id);
     if (edge.is_boundary()) {
       // Beyond a boundary there is no face: neither one that looks at the light nor one that looks away.
       if (left != FaceClass::kMixed) {
         result.umbra.push_back(id);
         result.penumbra.push_back(id);
       }
-      result.band.push_back(id);
       continue;
     }
     const FaceClass right = classes.faces[index(edge.right)];
     if ((left == FaceClass::kNoneFront) != (right == FaceClass::kNoneFront)) result.umbra.push_back(id);
     if ((left == FaceClass::kAllFront) != (right == FaceClass::kAllFront)) result.penumbra.push_back(id);
-    if (left != right || left == FaceClass::kMixed) result.band.push_back(id);
   }
   return result;
 }

@@ -22,6 +22,12 @@ struct Silhouettes {
   // band alone.
 };
 
+/// Whether an edge belongs to the band.
+inline bool is_in_band(const Edge& edge, const Classification& classes) {
+  const FaceClass left = classes.faces[index(edge.left)];
+  return left == FaceClass::kMixed || edge.is_boundary() || left != classes.faces[index(edge.right)];
+}
+
 /// Lists in ascending edge order. Cost O(E).
 Silhouettes find_silhouettes(const TriangleMesh& mesh, const Classification& classes);
 

@@ -193,7 +193,7 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
   Random random(31);
   std::size_t kept = 0, near = 0, listed = 0;
   for (int round = 0; round < 40; ++round) {
-    Band band = random_band(random, 60, round % 2 == 0);
+    const Band band = random_band(random, 60, round % 2 == 0);
     const BandTree tree(band);
     std::vector<Receiver> receivers;
     const Vec3 middle{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(3, 10)};
