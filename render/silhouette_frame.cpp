@@ -26,13 +26,31 @@ Vec3 cut(const Vec3& a, const Vec3& b) {
   return {front.x + t * (back.x - front.x), front.y + t * (back.y - front.y), 0.0};
 }
 
+/// Of points 0 to count - 1, on all cores.
+template <class PointAt>
+Bounds box_of(std::size_t count, const PointAt& point_at) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, count, 4096), Bounds{},
+      [&](const auto& range, Bounds box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const Vec3 p = point_at(i);
+          box.low = glm::min(box.low, p);
+          box.high = glm::max(box.high, p);
+        }
+        return box;
+      },
+      [](const Bounds& a, const Bounds& b) {
+        return Bounds{glm::min(a.low, b.low), glm::max(a.high, b.high)};
+      });
+}
+
 /// One caster's part of the band. Vertices are taken to the light's frame where they are needed, with the
 /// same bits each time.
 class CasterBand {
  public:
   CasterBand(const TriangleMesh& mesh, const DiskLight& world, const UnitLight& light)
       : mesh_(mesh), light_(light), classes_(classify_faces(mesh, world)) {
-    find_box();
+    box_ = box_of(mesh.positions().size(), [&](std::size_t i) { return light.point(mesh.positions()[i]); });
     find_edges();
     if (!in_front(box_.low)) find_cut_faces();
   }
@@ -87,20 +105,6 @@ class CasterBand {
     const Vec3 n = normal / length;
     const double spread = (glm::length(e1) + glm::length(e2)) / length;
     return {n, -glm::dot(n, a), 0x1p-46 * extent * (1.0 + 4.0 * extent * spread)};
-  }
-
-  void find_box() {
-    const auto positions = mesh_.positions();
-    box_ = tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, positions.size(), 4096), Bounds{},
-        [&](const auto& range, Bounds box) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) box.add(light_.point(positions[i]));
-          return box;
-        },
-        [](Bounds a, const Bounds& b) {
-          a.add(b);
-          return a;
-        });
   }
 
   /// Those with an end in front, ascending.
@@ -181,6 +185,10 @@ class Unsorted {
     }
   }
   std::size_t size() const { return size_; }
+  /// Of all middles.
+  Bounds box() const {
+    return box_of(size_, [&](std::size_t i) { return middle(i); });
+  }
   Vec3 middle(std::size_t i) const {
     const auto [caster, at] = place(i);
     return at < caster.edges().size() ? caster.middle(caster.edges()[at]) : Vec3(0.0);
@@ -213,9 +221,8 @@ void for_each_index(std::size_t count, const Body& body) {
 }
 
 void fill_along_curve(const Unsorted& unsorted, Band& band) {
-  Bounds box;
-  for (const Bounds& caster : band.casters) box.add(caster);
   std::vector<std::uint64_t> codes(unsorted.size());
+  const Bounds box = unsorted.box();
   for_each_index(codes.size(), [&](std::size_t i) { codes[i] = morton_code(unsorted.middle(i), box); });
   const std::vector<std::uint32_t> order = sorted_by(codes);
   band.memory = std::make_unique_for_overwrite<BandEdge[]>(order.size());
@@ -242,10 +249,6 @@ UnitLight::UnitLight(const DiskLight& light)
       across_(light.radius * axes_.u),
       up_(light.radius * axes_.v),
       per_radius_(1.0 / light.radius) {}
-
-Vec3 UnitLight::direction(const Vec3& world) const {
-  return {glm::dot(world, axes_.u), glm::dot(world, axes_.v), glm::dot(world, axes_.w)};
-}
 
 Band make_band(const Scene& scene, const UnitLight& light) {
   Band band;

@@ -11,6 +11,7 @@
 // edges that are no silhouette from x have a jump of 0.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <span>
@@ -25,7 +26,10 @@ class UnitLight {
  public:
   explicit UnitLight(const DiskLight& light);
   Vec3 point(const Vec3& world) const { return direction(world - center_) * per_radius_; }
-  Vec3 direction(const Vec3& world) const;  ///< rotated only
+  /// Rotated only.
+  Vec3 direction(const Vec3& world) const {
+    return {glm::dot(world, axes_.u), glm::dot(world, axes_.v), glm::dot(world, axes_.w)};
+  }
   Vec3 world_on_disk(const glm::dvec2& p) const { return center_ + p.x * across_ + p.y * up_; }
   double per_radius() const { return per_radius_; }
 
