@@ -13,6 +13,7 @@
 #include "mesh/error.h"
 #include "render/ray_scene_impl.h"
 #include "render/reference.h"
+#include "render/silhouette_blocks.h"
 #include "render/silhouette_fuse.h"
 #include "render/silhouette_gather.h"
 #include "render/silhouette_rays.h"
@@ -36,7 +37,6 @@ struct Workspace {
   std::vector<char> certain;  ///< one a receiver
   std::vector<std::uint32_t> edges;
   std::array<std::vector<Siblings>, 3> blocks;  ///< of the tile, and of its parts
-  std::vector<Siblings> own_blocks;             ///< of the receiver at hand
   EdgeList list, part_list;                     ///< of the tile, and of the part at hand
   Sight sight;
   Cut cut;
@@ -49,7 +49,7 @@ struct Workspace {
     std::size_t sum =
         receivers.capacity() * (sizeof(Receiver) + sizeof(Fused)) + edges.capacity() * sizeof(edges[0]);
     for (const auto& b : blocks) sum += b.capacity() * sizeof(b[0]);
-    return sum + own_blocks.capacity() * sizeof(own_blocks[0]) + list.bytes() + part_list.bytes();
+    return sum + list.bytes() + part_list.bytes();
   }
 };
 
@@ -253,9 +253,9 @@ void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) con
 
 void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& list, Workspace& w) const {
   const Receiver& r = w.receivers[i];
-  tree_.narrow(list, r, w.own_blocks);
-  look(blocks_, w.own_blocks, r.x, r.horizon, slack_, w.sight);
-  w.counts.projected_edges += count_blocks(w.own_blocks) * BandTree::kFanOut;
+  blocks_.sift(tree_, list, r, w.sight.sifted);
+  look(band_, w.sight.sifted, r.x, r.horizon, slack_, w.sight);
+  w.counts.projected_edges += BandTree::kFanOut * w.sight.sifted.blocks.size();
   judge(i, w);
 }
 

@@ -3,7 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace penumbra::detail {
@@ -34,23 +33,38 @@ PENUMBRA_INLINE void jumps_of(const Block& b, const FloatPoint& p, Ints& out) {
   out = sure ? jump : unsure;
 }
 
+/// Blocks that are not dropped. Without branches, which nothing could predict: a place is written in any case
+/// and stays if it counts.
 PENUMBRA_VECTOR_CLONES
-std::size_t sift_blocks(const Block* blocks, const Siblings* list, std::size_t count, const FloatPoint& at,
-                        std::int32_t* places, std::int32_t* jumps) {
+std::size_t keep_blocks(const Children* bounds, const Siblings* list, std::size_t count, const ConeTest& cone,
+                        std::uint32_t* __restrict out) {
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Siblings s = list[i];
+    const std::uint32_t kept = s.kept & ~cone.dropped(bounds[s.parent]);
+    for (std::uint32_t child = 0; child < kFloatLanes; ++child) {
+      out[found] = s.parent * kFloatLanes + child;
+      found += kept >> child & 1;
+    }
+  }
+  return found;
+}
+
+PENUMBRA_VECTOR_CLONES
+std::size_t sift_blocks(const Block* blocks, const std::uint32_t* list, std::size_t count,
+                        const FloatPoint& at, std::int32_t* __restrict places,
+                        std::int32_t* __restrict jumps) {
   const FloatPoint p = at;
   std::size_t found = 0;
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::uint32_t kept = list[i].kept; kept != 0; kept &= kept - 1) {
-      const std::uint32_t block =
-          list[i].parent * kFloatLanes + static_cast<std::uint32_t>(std::countr_zero(kept));
-      Ints jump;
-      jumps_of(blocks[block], p, jump);
-      for (std::uint32_t edges = bits_of(jump != 0); edges != 0; edges &= edges - 1) {
-        const int lane = std::countr_zero(edges);
-        places[found] = static_cast<std::int32_t>(block) * kFloatLanes + lane;
-        jumps[found++] = jump[lane];
-      }
+  for (std::size_t i = 0; i < count; ++i) {
+    Ints jump;
+    jumps_of(blocks[list[i]], p, jump);
+    for (int lane = 0; lane < kFloatLanes; ++lane) {
+      places[found] = static_cast<std::int32_t>(list[i]) * kFloatLanes + lane;
+      jumps[found] = jump[lane];
+      found += jump[lane] != 0 ? 1 : 0;
     }
+  }
   return found;
 }
 
@@ -85,13 +99,15 @@ void EdgeBlocks::fill(std::size_t block) {
   }
 }
 
-void EdgeBlocks::sift(const std::vector<Siblings>& list, const Vec3& x, Sifted& out) const {
-  std::size_t most = 0;
-  for (const Siblings& s : list) most += static_cast<std::size_t>(std::popcount(s.kept)) * kFloatLanes;
-  out.places.resize(most);
-  out.jumps.resize(most);
-  const std::size_t found = sift_blocks(blocks_.get(), list.data(), list.size(), FloatPoint(x),
-                                        out.places.data(), out.jumps.data());
+void EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
+                      Sifted& out) const {
+  out.blocks.resize(list.size() * kFloatLanes + 1);
+  out.blocks.resize(keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
+                                out.blocks.data()));
+  out.places.resize(out.blocks.size() * kFloatLanes + 1);
+  out.jumps.resize(out.places.size());
+  const std::size_t found = sift_blocks(blocks_.get(), out.blocks.data(), out.blocks.size(),
+                                        FloatPoint(receiver.x), out.places.data(), out.jumps.data());
   out.places.resize(found);
   out.jumps.resize(found);
 }

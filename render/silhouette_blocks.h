@@ -1,10 +1,10 @@
-// Accurate rung, between steps 2 and 3: of whole blocks of edges those that are a silhouette for one
-// receiver.
+// Accurate rung, between steps 2 and 3: of whole blocks of edges those that are a silhouette for a receiver.
 //
-// In: blocks (silhouette_tree.h) and a receiver. Out: the same as `sift` (silhouette_list.h), for lists too
-// long to be laid out tile by tile. The planes' values at x are summed in float, from the light's centre: an
-// edge is dismissed where both faces keep their sides by the planes' tolerances and 2^-20 of the sum's terms,
-// and the jump is 0. Whether it meets the disk is left to step 3.
+// In: blocks (silhouette_tree.h) and a receiver. Out: the same as `sift` (silhouette_list.h)
+// finds, for lists too long to be laid out tile by tile. Blocks are dropped first (ConeTest,
+// silhouette_bounds.h). Then the planes' values at x are summed in float, from the light's centre: an edge is
+// dismissed where both faces keep their sides by the planes' tolerances and 2^-20 of the sum's terms, and the
+// jump is 0. Whether it meets the disk is left to step 3.
 #pragma once
 
 #include <memory>
@@ -20,9 +20,10 @@ class EdgeBlocks {
   /// The band in the order of its tree; it must outlive this. Cost O(E), on all cores.
   explicit EdgeBlocks(const Band& band);
 
-  /// Edges by their indices in the band. Cost: some 13 flops an edge. Compiled for several instruction sets
-  /// with the same result.
-  void sift(const std::vector<Siblings>& list, const Vec3& x, Sifted& out) const;
+  /// Edges by their indices in the band, ascending. Cost: some 5 flops an edge of the list, 13 of those
+  /// blocks that are not dropped. Compiled for several instruction sets with the same result.
+  void sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
+            Sifted& out) const;
   /// Of edge `i`, 0: dismissed, else its jump. Tests compare with it.
   int sift_one(std::size_t i, const Vec3& x) const;
 

@@ -78,22 +78,22 @@ void see_one(const BandEdge& edge, const Vec3& x, const Chord& horizon, double s
 /// The sifted edges: in vectors, and then one by one what they left open. `ends`: those of the edge at place
 /// i from stride · i.
 template <class EdgeAt>
-void see_sifted(const double* ends, std::int32_t stride, const EdgeAt& edge_at, const Vec3& x,
-                const Chord& horizon, double slack, Sight& out) {
-  const std::size_t count = out.sifted.places.size();
+void see_sifted(const Sifted& sifted, const double* ends, std::int32_t stride, const EdgeAt& edge_at,
+                const Vec3& x, const Chord& horizon, double slack, Sight& out) {
+  const std::size_t count = sifted.places.size();
   for (auto& column : out.ends) column.resize(std::max(column.size(), count));
   out.states.resize(std::max(out.states.size(), count));
   out.segments.resize(count);
   const double reach = 1.0 + slack;
   const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
                *by = out.ends[3].data();
-  project(ends, stride, out.sifted.places.data(), static_cast<int>(count),
+  project(ends, stride, sifted.places.data(), static_cast<int>(count),
           {x.x, x.y, x.z, kHair * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
           out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
   std::size_t inside = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t state = out.states[i];
-    const std::int32_t jump = out.sifted.jumps[i];
+    const std::int32_t jump = sifted.jumps[i];
     const bool sure = jump != Sifted::kUnsure;
     out.segments[inside] = {{ax[i], ay[i]}, {bx[i], by[i]}, jump};
     if (state == kInside && sure) {
@@ -102,7 +102,7 @@ void see_sifted(const double* ends, std::int32_t stride, const EdgeAt& edge_at, 
     }
     if (state == kFar) continue;
     if (state == kUnclear || !sure) {
-      see_one(edge_at(out.sifted.places[i]), x, horizon, slack, out);
+      see_one(edge_at(sifted.places[i]), x, horizon, slack, out);
     } else {
       out.certain = false;
       if (state == kCrosses) out.crossing.push_back(out.segments[inside]);
@@ -161,21 +161,19 @@ void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slac
   }
   sift(list, x, out.sifted);
   see_sifted(
-      list.ends(), 6, [&](std::int32_t place) -> const BandEdge& { return list.edge(place); }, x, horizon,
-      slack, out);
+      out.sifted, list.ends(), 6, [&](std::int32_t place) -> const BandEdge& { return list.edge(place); }, x,
+      horizon, slack, out);
 }
 
-void look(const EdgeBlocks& blocks, const std::vector<Siblings>& list, const Vec3& x, const Chord& horizon,
-          double slack, Sight& out) {
+void look(const Band& band, const Sifted& sifted, const Vec3& x, const Chord& horizon, double slack,
+          Sight& out) {
   static_assert(offsetof(BandEdge, b) == 3 * sizeof(double) && sizeof(BandEdge) % sizeof(double) == 0);
   constexpr std::int32_t kStride = sizeof(BandEdge) / sizeof(double);
   out.clear();
-  if (list.empty()) return;
-  blocks.sift(list, x, out.sifted);
-  const std::span<const BandEdge> edges = blocks.band().edges;
+  if (sifted.places.empty()) return;
   see_sifted(
-      &edges[0].a.x, kStride,
-      [&](std::int32_t place) -> const BandEdge& { return edges[static_cast<std::size_t>(place)]; }, x,
+      sifted, &band.edges[0].a.x, kStride,
+      [&](std::int32_t place) -> const BandEdge& { return band.edges[static_cast<std::size_t>(place)]; }, x,
       horizon, slack, out);
 }
 

@@ -21,7 +21,6 @@
 #include <vector>
 
 #include "render/disk_area.h"
-#include "render/silhouette_blocks.h"
 #include "render/silhouette_list.h"
 
 namespace penumbra::detail {
@@ -55,8 +54,8 @@ struct Sight {
   std::vector<Segment> crossing;
 };
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out);
-/// The same for edges in blocks.
-void look(const EdgeBlocks& blocks, const std::vector<Siblings>& list, const Vec3& x, const Chord& horizon,
-          double slack, Sight& out);
+/// The same for edges of the band that were sifted from blocks.
+void look(const Band& band, const Sifted& sifted, const Vec3& x, const Chord& horizon, double slack,
+          Sight& out);
 
 }  // namespace penumbra::detail

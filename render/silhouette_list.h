@@ -86,7 +86,8 @@ void narrow(const EdgeList& list, const Shaft& shaft, std::vector<std::uint32_t>
 struct Sifted {
   static constexpr std::int32_t kUnsure = 127;
   std::vector<std::int32_t> places;
-  std::vector<std::int32_t> jumps;  ///< faces on the left minus faces on the right, or kUnsure
+  std::vector<std::int32_t> jumps;    ///< faces on the left minus faces on the right, or kUnsure
+  std::vector<std::uint32_t> blocks;  ///< that were looked into, where there are blocks
 };
 
 /// The edges that a receiver at x must look at, in the list's order. Cost: some 70 flops an edge. Compiled

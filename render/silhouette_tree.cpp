@@ -12,119 +12,10 @@ namespace penumbra::detail {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kGrain = 0x1p-17;  // of the extent, see the header
 
-/// A linear function n·p + offset, positive outside by more than the margin; and how much it varies per
-/// half a box.
-struct FloatPlane {
-  std::array<float, 3> normal, steep;
-  float offset;
-};
-
-FloatPlane float_plane(const Vec3& n, double offset, double margin) {
-  FloatPlane p;
-  for (int k = 0; k < 3; ++k) {
-    p.normal[k] = static_cast<float>(n[k]);
-    p.steep[k] = std::abs(p.normal[k]);
-  }
-  p.offset = static_cast<float>(offset - margin);
-  return p;
-}
-
-PENUMBRA_INLINE Floats sum_of_products(const std::array<float, 3>& a, const std::array<Floats, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-struct FloatBox {
-  std::array<float, 3> middle, half;
-};
-
-FloatBox float_box(const Vec3& middle, const Vec3& half) {
-  FloatBox b;
-  for (int k = 0; k < 3; ++k) {
-    b.middle[k] = static_cast<float>(middle[k]);
-    b.half[k] = static_cast<float>(half[k]);
-  }
-  return b;
-}
-
-/// All planes of the children have one sign for receivers in a box.
-PENUMBRA_INLINE Ints are_one_sided(const BandTree::Children& c, const FloatBox& receivers) {
-  Floats value = c.value, reach = c.value_half;
-  for (int k = 0; k < 3; ++k) {
-    const Floats d = receivers.middle[k] - c.middle[k];
-    value += c.normal[k] * d;
-    reach +=
-        c.normal_half[k] * (magnitude(d) + receivers.half[k]) + magnitude(c.normal[k]) * receivers.half[k];
-  }
-  return magnitude(value) > reach;
-}
-
-/// A shaft in float.
-struct ShaftTest {
-  ShaftTest(const Shaft& shaft, double extent) : receivers(float_box(shaft.middle(), shaft.half())) {
-    for (int k = 0; k <= kShaftSides; ++k) {
-      const Shaft::Side side = shaft.side_plane(k);
-      planes[k] = float_plane(side.normal, side.offset, kGrain * extent * (1.0 + std::abs(side.normal.z)));
-    }
-    has_horizon = shaft.has_horizon();
-    if (!has_horizon) return;
-    const Vec3 low = shaft.normal_low(), high = shaft.normal_high();
-    normals = float_box(0.5 * (low + high), 0.5 * (high - low));
-    lowest = static_cast<float>(shaft.lowest() - kGrain * extent);
-  }
-  /// Below the tangent planes of all receivers.
-  PENUMBRA_INLINE Ints are_below(const BandTree::Children& c) const {
-    Floats highest{};
-    for (int k = 0; k < 3; ++k) {
-      const Floats d = c.middle[k] - receivers.middle[k];
-      highest += normals.middle[k] * d + normals.half[k] * magnitude(d) +
-                 (std::abs(normals.middle[k]) + normals.half[k]) * c.half[k];
-    }
-    return highest < lowest;
-  }
-  PENUMBRA_INLINE std::uint32_t dropped(const BandTree::Children& c) const {
-    Ints out = are_one_sided(c, receivers);
-    for (const FloatPlane& p : planes)
-      out |= sum_of_products(p.normal, c.middle) + p.offset > sum_of_products(p.steep, c.half);
-    if (has_horizon) out |= are_below(c);
-    return bits_of(out);
-  }
-
-  std::array<FloatPlane, kShaftSides + 1> planes;
-  FloatBox receivers;
-  bool has_horizon = false;
-  FloatBox normals{};
-  float lowest = 0.0f;
-};
-
-/// One receiver in float.
-struct ConeTest {
-  ConeTest(const Receiver& receiver, double extent)
-      : at(float_box(receiver.x, Vec3(0.0))),
-        per_z(static_cast<float>(1.0 / receiver.x.z)),
-        steep((std::hypot(at.middle[0], at.middle[1]) + 1.0f) * per_z),
-        margin(static_cast<float>(kGrain * extent) * (1.0f + steep)),
-        tangent(float_plane(-receiver.normal, glm::dot(receiver.normal, receiver.x), kGrain * extent)) {}
-  PENUMBRA_INLINE std::uint32_t dropped(const BandTree::Children& c) const {
-    Ints out = are_one_sided(c, at);
-    out |=
-        sum_of_products(tangent.normal, c.middle) + tangent.offset > sum_of_products(tangent.steep, c.half);
-    const Floats t = c.middle[2] * per_z;
-    const Floats x = c.middle[0] - at.middle[0] * t, y = c.middle[1] - at.middle[1] * t;
-    const Floats reach = 1.0f - t + c.across + c.half[2] * steep + margin;
-    out |= (reach < 0.0f) | (x * x + y * y > reach * reach * 1.00001f);
-    return bits_of(out);
-  }
-
-  FloatBox at;
-  float per_z, steep, margin;
-  FloatPlane tangent;
-};
-
-template <class Test>
-PENUMBRA_INLINE std::size_t keep_with(const Test& test, const BandTree::Children* nodes, const Siblings* in,
-                                      std::size_t count, Siblings* out) {
+PENUMBRA_VECTOR_CLONES
+std::size_t keep(const ShaftTest& test, const Children* nodes, const Siblings* in, std::size_t count,
+                 Siblings* out) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Siblings s = in[i];
@@ -133,18 +24,6 @@ PENUMBRA_INLINE std::size_t keep_with(const Test& test, const BandTree::Children
     found += kept != 0 ? 1 : 0;
   }
   return found;
-}
-
-PENUMBRA_VECTOR_CLONES
-std::size_t keep(const ShaftTest& test, const BandTree::Children* nodes, const Siblings* in,
-                 std::size_t count, Siblings* out) {
-  return keep_with(test, nodes, in, count, out);
-}
-
-PENUMBRA_VECTOR_CLONES
-std::size_t keep(const ConeTest& test, const BandTree::Children* nodes, const Siblings* in, std::size_t count,
-                 Siblings* out) {
-  return keep_with(test, nodes, in, count, out);
 }
 
 }  // namespace
@@ -219,7 +98,7 @@ BandTree::Node BandTree::joined(const Node* first, const Node* last) {
 }
 
 /// Halves are enlarged so that floats bound what doubles do. A child that is none has one side for all.
-std::vector<BandTree::Children> BandTree::packed(const std::vector<Node>& nodes) const {
+std::vector<Children> BandTree::packed(const std::vector<Node>& nodes) const {
   std::vector<Children> out((nodes.size() + kFanOut - 1) / kFanOut);
   const auto enlarged = [](double half, double least) {
     return static_cast<float>(half * (1.0 + 0x1p-20) + least);
@@ -242,7 +121,7 @@ std::vector<BandTree::Children> BandTree::packed(const std::vector<Node>& nodes)
     c.across[l] = enlarged(std::hypot(half.x, half.y), 0x1p-22 * extent_);
     const bool bounded = n.near_high < kInfinity;
     c.value[l] = bounded ? static_cast<float>(0.5 * (n.near_low + n.near_high)) : 0.0f;
-    c.value_half[l] = enlarged(0.5 * (n.near_high - n.near_low), kGrain * extent_);
+    c.value_half[l] = enlarged(0.5 * (n.near_high - n.near_low), kBoundsGrain * extent_);
   }
   return out;
 }
@@ -275,13 +154,6 @@ void BandTree::narrow(const std::vector<Siblings>& list, const Shaft& shaft,
   out.resize(list.size());
   if (list.empty()) return;
   out.resize(keep(ShaftTest(shaft, extent_), levels_[0].data(), list.data(), list.size(), out.data()));
-}
-
-void BandTree::narrow(const std::vector<Siblings>& list, const Receiver& receiver,
-                      std::vector<Siblings>& out) const {
-  out.resize(list.size());
-  if (list.empty()) return;
-  out.resize(keep(ConeTest(receiver, extent_), levels_[0].data(), list.data(), list.size(), out.data()));
 }
 
 std::size_t BandTree::bytes() const {

@@ -6,21 +6,16 @@
 // its faces are all seen from the front, or all from behind.
 //
 // A block is dropped for a tile where it lies outside of the tile's shaft (silhouette_gather.h), below all
-// horizons, or where the planes of all its faces have one sign for all receivers; for one receiver x where it
-// lies outside of the cone from x to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or likewise. With M the
-// scene's extent in light radii, all is in float with a margin of 2^-17 M, and times 1 + (M + 1)/z where
-// projection enlarges errors: a sum here has a dozen terms of at most 7 M, each off by 2^-24 of that. What is
-// dropped is farther from the disk than the certificate's slack.
+// horizons, or where the planes of all its faces have one sign for all receivers; silhouette_bounds.h has the
+// margins.
 //
 // Eight siblings are tested at once; lists name them by their parent and a mask.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "render/float_lanes.h"
-#include "render/silhouette_gather.h"
+#include "render/silhouette_bounds.h"
 
 namespace penumbra::detail {
 
@@ -42,17 +37,10 @@ class BandTree {
   void gather(const Shaft& shaft, std::vector<Siblings>& out) const;
   /// Of these blocks those that fewer receivers may have to look at. Cost: some 20 flops a block.
   void narrow(const std::vector<Siblings>& list, const Shaft& shaft, std::vector<Siblings>& out) const;
-  /// Of these blocks those that one receiver may have to look at.
-  void narrow(const std::vector<Siblings>& list, const Receiver& receiver, std::vector<Siblings>& out) const;
+  /// Bounds of the blocks, by their parents.
+  const Children* blocks() const { return levels_.empty() ? nullptr : levels_[0].data(); }
+  double extent() const { return extent_; }
   std::size_t bytes() const;
-
-  /// Eight children's bounds: boxes, and of planes normals and values at the box's middle; each a middle and
-  /// half of a range.
-  struct alignas(kFloatLanes * sizeof(float)) Children {
-    std::array<Floats, 3> middle, half, normal, normal_half;
-    Floats across;  ///< the box's half diagonal in x and y
-    Floats value, value_half;
-  };
 
  private:
   struct Node;

@@ -1,0 +1,134 @@
+// Accurate rung, in step 2: bounds of eight neighbouring blocks of edges, and what drops them for receivers.
+//
+// All is in float with a margin of 2^-17 M, M the scene's extent in light radii, and times 1 + (M + 1)/z
+// where projection enlarges errors: a sum here has a dozen terms of at most 7 M, each off by 2^-24 of that.
+// What is dropped is farther from the disk than the certificate's slack.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "render/float_lanes.h"
+#include "render/silhouette_gather.h"
+
+namespace penumbra::detail {
+
+inline constexpr double kBoundsGrain = 0x1p-17;
+
+/// Boxes of eight blocks, and of the planes of their faces the normals and the values at the box's middle;
+/// each a middle and half of a range.
+struct alignas(kFloatLanes * sizeof(float)) Children {
+  std::array<Floats, 3> middle, half, normal, normal_half;
+  Floats across;  ///< the box's half diagonal in x and y
+  Floats value, value_half;
+};
+
+/// normal·p + offset, more than 0 outside, and how much it varies over half a box.
+struct FloatPlane {
+  FloatPlane() = default;
+  FloatPlane(const Vec3& n, double offset_less_margin) : offset(static_cast<float>(offset_less_margin)) {
+    for (int k = 0; k < 3; ++k) {
+      normal[k] = static_cast<float>(n[k]);
+      steep[k] = std::abs(normal[k]);
+    }
+  }
+  PENUMBRA_INLINE Ints has_outside(const Children& c) const {
+    const Floats at = normal[0] * c.middle[0] + normal[1] * c.middle[1] + normal[2] * c.middle[2];
+    return at + offset > steep[0] * c.half[0] + steep[1] * c.half[1] + steep[2] * c.half[2];
+  }
+  std::array<float, 3> normal, steep;
+  float offset;
+};
+
+struct FloatBox {
+  FloatBox() = default;
+  FloatBox(const Vec3& m, const Vec3& h) {
+    for (int k = 0; k < 3; ++k) {
+      middle[k] = static_cast<float>(m[k]);
+      half[k] = static_cast<float>(h[k]);
+    }
+  }
+  std::array<float, 3> middle{}, half{};
+};
+
+/// All planes of a block have one sign for receivers in a box.
+PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers) {
+  Floats value = c.value, reach = c.value_half;
+  for (int k = 0; k < 3; ++k) {
+    const Floats d = receivers.middle[k] - c.middle[k];
+    value += c.normal[k] * d;
+    reach +=
+        c.normal_half[k] * (magnitude(d) + receivers.half[k]) + magnitude(c.normal[k]) * receivers.half[k];
+  }
+  return magnitude(value) > reach;
+}
+
+/// Drops blocks for the receivers of a shaft.
+class ShaftTest {
+ public:
+  ShaftTest(const Shaft& shaft, double extent) : receivers_(shaft.middle(), shaft.half()) {
+    const double margin = kBoundsGrain * extent;
+    for (int k = 0; k <= kShaftSides; ++k) {
+      const Shaft::Side side = shaft.side_plane(k);
+      planes_[k] = FloatPlane(side.normal, side.offset - margin * (1.0 + std::abs(side.normal.z)));
+    }
+    has_horizon_ = shaft.has_horizon();
+    if (!has_horizon_) return;
+    const Vec3 low = shaft.normal_low(), high = shaft.normal_high();
+    normals_ = FloatBox(0.5 * (low + high), 0.5 * (high - low));
+    lowest_ = static_cast<float>(shaft.lowest() - margin);
+  }
+  /// Bit i is set for block i.
+  PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
+    Ints out = are_one_sided(c, receivers_);
+    for (const FloatPlane& p : planes_) out |= p.has_outside(c);
+    if (has_horizon_) out |= are_below(c);
+    return bits_of(out);
+  }
+
+ private:
+  /// Below the tangent planes of all receivers.
+  PENUMBRA_INLINE Ints are_below(const Children& c) const {
+    Floats highest{};
+    for (int k = 0; k < 3; ++k) {
+      const Floats d = c.middle[k] - receivers_.middle[k];
+      highest += normals_.middle[k] * d + normals_.half[k] * magnitude(d) +
+                 (std::abs(normals_.middle[k]) + normals_.half[k]) * c.half[k];
+    }
+    return highest < lowest_;
+  }
+
+  std::array<FloatPlane, kShaftSides + 1> planes_;
+  FloatBox receivers_, normals_;
+  bool has_horizon_ = false;
+  float lowest_ = 0.0f;
+};
+
+/// Drops blocks for one receiver x: outside of the cone from x to the disk, |p.xy - x.xy p.z/x.z| > 1 -
+/// p.z/x.z, or below its tangent plane.
+class ConeTest {
+ public:
+  ConeTest() = default;
+  ConeTest(const Receiver& receiver, double extent)
+      : at_(receiver.x, Vec3(0.0)),
+        per_z_(static_cast<float>(1.0 / receiver.x.z)),
+        steep_((std::hypot(at_.middle[0], at_.middle[1]) + 1.0f) * per_z_),
+        margin_(static_cast<float>(kBoundsGrain * extent) * (1.0f + steep_)),
+        tangent_(-receiver.normal, glm::dot(receiver.normal, receiver.x) - kBoundsGrain * extent) {}
+  PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
+    Ints out = are_one_sided(c, at_) | tangent_.has_outside(c);
+    const Floats t = c.middle[2] * per_z_;
+    const Floats x = c.middle[0] - at_.middle[0] * t, y = c.middle[1] - at_.middle[1] * t;
+    const Floats reach = 1.0f - t + c.across + c.half[2] * steep_ + margin_;
+    out |= (reach < 0.0f) | (x * x + y * y > reach * reach * 1.00001f);
+    return bits_of(out);
+  }
+  const FloatBox& at() const { return at_; }
+
+ private:
+  FloatBox at_;
+  float per_z_ = 0.0f, steep_ = 0.0f, margin_ = 0.0f;
+  FloatPlane tangent_;
+};
+
+}  // namespace penumbra::detail
