@@ -184,9 +184,7 @@ void Evaluation::divide_blocks(std::size_t first, std::size_t last, std::size_t 
     divide_blocks(first, middle, level, w);
     return divide_blocks(middle, last, level, w);
   }
-  Shaft shaft(part, band_.extent);
-  shaft.tighten(part);
-  tree_.narrow(list, shaft, w.blocks[level + 1]);
+  tree_.narrow(list, part, w.blocks[level + 1]);
   divide_blocks(first, last, level + 1, w);
 }
 
@@ -255,7 +253,7 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& lis
   const Receiver& r = w.receivers[i];
   blocks_.sift(tree_, list, r, w.sight.sifted);
   look(band_, w.sight.sifted, r.x, r.horizon, slack_, w.sight);
-  w.counts.projected_edges += BandTree::kFanOut * w.sight.sifted.blocks.size();
+  w.counts.projected_edges += BandTree::kFanOut * w.sight.sifted.looked_into;
   judge(i, w);
 }
 

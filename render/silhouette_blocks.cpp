@@ -101,15 +101,14 @@ void EdgeBlocks::fill(std::size_t block) {
 
 void EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
                       Sifted& out) const {
-  out.blocks.resize(list.size() * kFloatLanes + 1);
-  out.blocks.resize(keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
-                                out.blocks.data()));
-  out.places.resize(out.blocks.size() * kFloatLanes + 1);
-  out.jumps.resize(out.places.size());
-  const std::size_t found = sift_blocks(blocks_.get(), out.blocks.data(), out.blocks.size(),
-                                        FloatPoint(receiver.x), out.places.data(), out.jumps.data());
-  out.places.resize(found);
-  out.jumps.resize(found);
+  const auto at_least = [](auto& buffer, std::size_t size) { buffer.resize(std::max(buffer.size(), size)); };
+  at_least(out.blocks, list.size() * kFloatLanes + 1);
+  out.looked_into = keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
+                                out.blocks.data());
+  at_least(out.places, out.looked_into * kFloatLanes + 1);
+  at_least(out.jumps, out.places.size());
+  out.count = sift_blocks(blocks_.get(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
+                          out.places.data(), out.jumps.data());
 }
 
 int EdgeBlocks::sift_one(std::size_t i, const Vec3& x) const {

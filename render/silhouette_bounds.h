@@ -63,6 +63,18 @@ PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers)
   return magnitude(value) > reach;
 }
 
+/// Drops blocks for receivers in a box, by the sides of planes alone.
+class SidesTest {
+ public:
+  SidesTest(const Vec3& middle, const Vec3& half) : receivers_(middle, half) {}
+  PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
+    return bits_of(are_one_sided(c, receivers_));
+  }
+
+ private:
+  FloatBox receivers_;
+};
+
 /// Drops blocks for the receivers of a shaft.
 class ShaftTest {
  public:

@@ -80,7 +80,7 @@ void see_one(const BandEdge& edge, const Vec3& x, const Chord& horizon, double s
 template <class EdgeAt>
 void see_sifted(const Sifted& sifted, const double* ends, std::int32_t stride, const EdgeAt& edge_at,
                 const Vec3& x, const Chord& horizon, double slack, Sight& out) {
-  const std::size_t count = sifted.places.size();
+  const std::size_t count = sifted.count;
   for (auto& column : out.ends) column.resize(std::max(column.size(), count));
   out.states.resize(std::max(out.states.size(), count));
   out.segments.resize(count);
@@ -170,7 +170,7 @@ void look(const Band& band, const Sifted& sifted, const Vec3& x, const Chord& ho
   static_assert(offsetof(BandEdge, b) == 3 * sizeof(double) && sizeof(BandEdge) % sizeof(double) == 0);
   constexpr std::int32_t kStride = sizeof(BandEdge) / sizeof(double);
   out.clear();
-  if (sifted.places.empty()) return;
+  if (sifted.count == 0) return;
   see_sifted(
       sifted, &band.edges[0].a.x, kStride,
       [&](std::int32_t place) -> const BandEdge& { return band.edges[static_cast<std::size_t>(place)]; }, x,

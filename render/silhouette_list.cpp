@@ -229,8 +229,8 @@ void sift(const EdgeList& list, const Vec3& x, Sifted& out) {
   const Columns columns(list);
   const FloatReceiver receiver = float_receiver(list, x);
   alignas(64) std::int32_t jumps[kChunk];
-  out.places.resize(list.size());
-  out.jumps.resize(list.size());
+  out.places.resize(std::max(out.places.size(), list.size()));
+  out.jumps.resize(out.places.size());
   std::size_t found = 0;
   for (std::size_t first = 0; first < list.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, list.size() - first);
@@ -242,8 +242,7 @@ void sift(const EdgeList& list, const Vec3& x, Sifted& out) {
       found += jumps[i] != 0 ? 1 : 0;
     }
   }
-  out.places.resize(found);
-  out.jumps.resize(found);
+  out.count = found;
 }
 
 int sift_one(const EdgeList& list, std::size_t i, const Vec3& x) {

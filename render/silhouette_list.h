@@ -85,9 +85,11 @@ void narrow(const EdgeList& list, const Shaft& shaft, std::vector<std::uint32_t>
 /// What is left of a list for one receiver.
 struct Sifted {
   static constexpr std::int32_t kUnsure = 127;
+  std::size_t count = 0;  ///< of edges; arrays may be longer
   std::vector<std::int32_t> places;
-  std::vector<std::int32_t> jumps;    ///< faces on the left minus faces on the right, or kUnsure
-  std::vector<std::uint32_t> blocks;  ///< that were looked into, where there are blocks
+  std::vector<std::int32_t> jumps;  ///< faces on the left minus faces on the right, or kUnsure
+  std::size_t looked_into = 0;      ///< blocks, where there are any
+  std::vector<std::uint32_t> blocks;
 };
 
 /// The edges that a receiver at x must look at, in the list's order. Cost: some 70 flops an edge. Compiled

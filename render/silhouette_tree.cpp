@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-PENUMBRA_VECTOR_CLONES
-std::size_t keep(const ShaftTest& test, const Children* nodes, const Siblings* in, std::size_t count,
-                 Siblings* out) {
+template <class Test>
+PENUMBRA_INLINE std::size_t keep_with(const Test& test, const Children* nodes, const Siblings* in,
+                                      std::size_t count, Siblings* out) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Siblings s = in[i];
@@ -24,6 +24,18 @@ std::size_t keep(const ShaftTest& test, const Children* nodes, const Siblings* i
     found += kept != 0 ? 1 : 0;
   }
   return found;
+}
+
+PENUMBRA_VECTOR_CLONES
+std::size_t keep(const ShaftTest& test, const Children* nodes, const Siblings* in, std::size_t count,
+                 Siblings* out) {
+  return keep_with(test, nodes, in, count, out);
+}
+
+PENUMBRA_VECTOR_CLONES
+std::size_t keep(const SidesTest& test, const Children* nodes, const Siblings* in, std::size_t count,
+                 Siblings* out) {
+  return keep_with(test, nodes, in, count, out);
 }
 
 }  // namespace
@@ -149,11 +161,13 @@ void BandTree::gather(const Shaft& shaft, std::vector<Siblings>& out) const {
   }
 }
 
-void BandTree::narrow(const std::vector<Siblings>& list, const Shaft& shaft,
+void BandTree::narrow(const std::vector<Siblings>& list, std::span<const Receiver> receivers,
                       std::vector<Siblings>& out) const {
+  Bounds box;
+  for (const Receiver& r : receivers) box.add(r.x);
+  const SidesTest test(box.center(), 0.5 * (box.high - box.low));
   out.resize(list.size());
-  if (list.empty()) return;
-  out.resize(keep(ShaftTest(shaft, extent_), levels_[0].data(), list.data(), list.size(), out.data()));
+  if (!list.empty()) out.resize(keep(test, levels_[0].data(), list.data(), list.size(), out.data()));
 }
 
 std::size_t BandTree::bytes() const {

@@ -35,8 +35,10 @@ class BandTree {
   bool misses(const Shaft& shaft) const;
   /// The blocks that some receiver of the shaft may have to look at, ascending.
   void gather(const Shaft& shaft, std::vector<Siblings>& out) const;
-  /// Of these blocks those that fewer receivers may have to look at. Cost: some 20 flops a block.
-  void narrow(const std::vector<Siblings>& list, const Shaft& shaft, std::vector<Siblings>& out) const;
+  /// Of these blocks those whose planes have not one sign for all of fewer receivers. Cost: some 30 flops a
+  /// block.
+  void narrow(const std::vector<Siblings>& list, std::span<const Receiver> receivers,
+              std::vector<Siblings>& out) const;
   /// Bounds of the blocks, by their parents.
   const Children* blocks() const { return levels_.empty() ? nullptr : levels_[0].data(); }
   double extent() const { return extent_; }
