@@ -27,7 +27,8 @@ constexpr double kPi = std::numbers::pi;
 
 constexpr std::size_t kShortList = 24;     // edges; shorter lists are not narrowed
 constexpr std::size_t kFewReceivers = 16;  // a quarter of a tile: narrowing for fewer costs what it saves
-constexpr std::size_t kManyBlocks = 64;    // lists of more are narrowed down to receivers block by block
+constexpr std::size_t kManyBlocks = 64;    // lists of more may be narrowed down to receivers block by block,
+constexpr double kMostKept = 0.4;          // if one receiver keeps at most that share
 constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
 
 /// What one thread keeps between tiles, and what it has counted.
@@ -90,6 +91,7 @@ class Evaluation {
   void collect(int column, int row, Workspace& w) const;
   void add_receiver(std::size_t pixel, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
+  bool are_blocks_better(Workspace& w) const;
   void divide(std::size_t first, std::size_t last, Workspace& w) const;
   void divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const;
   void evaluate(std::size_t i, const EdgeList& list, Workspace& w) const;
@@ -130,9 +132,8 @@ void Evaluation::tile(int column, int row, Workspace& w) const {
   w.fused.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
   w.tasks.clear();
-  const std::size_t blocks = count_blocks(w.blocks[0]);
-  if (blocks > kManyBlocks) {
-    w.counts.listed_edges += blocks * BandTree::kFanOut;
+  if (are_blocks_better(w)) {
+    w.counts.listed_edges += count_blocks(w.blocks[0]) * BandTree::kFanOut;
     divide_blocks(0, w.receivers.size(), 0, w);
   } else {
     gather_edges(band_, w.blocks[0], shaft, w.edges);
@@ -142,6 +143,15 @@ void Evaluation::tile(int column, int row, Workspace& w) const {
     divide(0, w.receivers.size(), w);
   }
   decide(w);
+}
+
+/// A long list stays in blocks where one receiver drops most of them; on rough surfaces it drops few, and a
+/// list of single edges is shorter.
+bool Evaluation::are_blocks_better(Workspace& w) const {
+  const std::size_t blocks = count_blocks(w.blocks[0]);
+  if (blocks <= kManyBlocks) return false;
+  tree_.narrow(w.blocks[0], std::span(w.receivers).subspan(w.receivers.size() / 2, 1), w.blocks[1]);
+  return static_cast<double>(count_blocks(w.blocks[1])) <= kMostKept * static_cast<double>(blocks);
 }
 
 /// The box of some caster is between the shaft's receivers and the light.
