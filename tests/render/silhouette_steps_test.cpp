@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "mesh/shapes.h"
+#include "render/silhouette_blocks.h"
 #include "render/silhouette_fuse.h"
 #include "render/silhouette_gather.h"
 #include "render/silhouette_integrate.h"
@@ -179,6 +181,14 @@ Band random_band(Random& random, int count, bool closed) {
   return make_band(scene, UnitLight(scene.light));
 }
 
+/// A finely divided sphere between light and receivers.
+Band sphere_band(Random& random) {
+  Scene scene = testing::scene_in_light_frame(1.0, {});
+  const Vec3 middle{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(2, 5)};
+  scene.objects.push_back({"", make_icosphere(middle, random.uniform(0.3, 1.5), 5), Vec3(0.8), true});
+  return make_band(scene, UnitLight(scene.light));
+}
+
 /// The same segments to the last bit, in any order.
 void expect_same_segments(std::vector<Segment> p, std::vector<Segment> q) {
   const auto numbers = [](const Segment& s) { return std::tuple(s.a.x, s.a.y, s.b.x, s.b.y, s.jump); };
@@ -187,6 +197,96 @@ void expect_same_segments(std::vector<Segment> p, std::vector<Segment> q) {
   std::sort(q.begin(), q.end(), before);
   ASSERT_EQ(p.size(), q.size());
   for (std::size_t i = 0; i < p.size(); ++i) ASSERT_EQ(numbers(p[i]), numbers(q[i]));
+}
+
+void add_place(std::int32_t place, std::int32_t jump, Sifted& out) {
+  out.places.push_back(place);
+  out.jumps.push_back(jump);
+  ++out.count;
+}
+
+void expect_same_places(const Sifted& p, const Sifted& q) {
+  ASSERT_EQ(p.count, q.count);
+  const auto n = static_cast<std::ptrdiff_t>(p.count);
+  ASSERT_TRUE(std::equal(p.places.begin(), p.places.begin() + n, q.places.begin()));
+  ASSERT_TRUE(std::equal(p.jumps.begin(), p.jumps.begin() + n, q.jumps.begin()));
+}
+
+/// Receivers near each other whose tangent plane may cut the disk.
+std::vector<Receiver> random_receivers(Random& random, std::size_t count) {
+  std::vector<Receiver> out;
+  const Vec3 middle{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(3, 10)};
+  const double size = random.spread(0.01, 2.0);
+  const Vec3 normal = glm::normalize(Vec3(0, 0, -1) + random.point(1.5));
+  while (out.size() < count) {
+    const Vec3 x = middle + random.point(size), n = glm::normalize(normal + random.point(0.05));
+    const double center = -glm::dot(n, x), fall2 = n.x * n.x + n.y * n.y;
+    const bool cuts = center * center < fall2;
+    if (!cuts && center <= 0.0) return random_receivers(random, count);  // behind its own plane
+    out.push_back({x, n, cuts ? chord_of_plane(n, x, 1.0) : no_horizon(), cuts, 0});
+  }
+  return out;
+}
+
+/// What is above the horizon of the edges near the disk, by the definition.
+std::vector<Segment> seen_edges(const Band& band, const Receiver& r, double slack, bool& certain) {
+  std::vector<Segment> out;
+  certain = true;
+  for (const BandEdge& e : band.edges) {
+    const Projection p = see(e, r.x, slack);
+    if (!p.near) continue;
+    const bool above = height(r.horizon, p.segment.a) > 0.0 || height(r.horizon, p.segment.b) > 0.0;
+    certain = certain && !above;
+    if (p.segment.jump != 0 && above) out.push_back(p.segment);
+  }
+  return out;
+}
+
+TEST(EdgeBlocks, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
+  Random random(37);
+  std::size_t kept = 0, near = 0, listed = 0, looked_into = 0, cut = 0;
+  for (int round = 0; round < 80; ++round) {
+    const Band band = round % 4 == 3 ? sphere_band(random) : random_band(random, 60, round % 2 == 0);
+    const BandTree tree(band);
+    const EdgeBlocks blocks(band);
+    const std::vector<Receiver> receivers = random_receivers(random, 16);
+    Shaft shaft(receivers, band.extent);
+    shaft.tighten(receivers);
+    std::vector<Siblings> list, few;
+    Sight sight;
+    tree.gather(shaft, list);
+    tree.narrow(list, std::span(receivers).first(4), few);
+    for (std::size_t r = 0; r < receivers.size(); ++r) {
+      const Receiver& receiver = receivers[r];
+      Sifted sifted, singly;
+      blocks.sift(tree, r < 4 ? few : list, receiver, sifted);
+      for (std::size_t b = 0; b < sifted.looked_into; ++b)
+        for (std::uint32_t i = 8 * sifted.blocks[b]; i < 8 * sifted.blocks[b] + 8; ++i) {
+          const int jump = blocks.sift_one(i, receiver.x);
+          if (jump == 0) continue;
+          add_place(static_cast<std::int32_t>(i), jump, singly);
+          ASSERT_LT(i, band.edges.size()) << "no edge";
+          if (jump != Sifted::kUnsure) {
+            ASSERT_EQ(jump, jump_at(band.edges[i], receiver.x));
+          }
+        }
+      expect_same_places(sifted, singly);
+      look(band, sifted, receiver.x, receiver.horizon, 1e-6, sight);
+      bool certain = false;
+      const std::vector<Segment> segments = seen_edges(band, receiver, 1e-6, certain);
+      expect_same_segments(sight.segments, segments);
+      if (!receiver.horizon_cuts) {
+        ASSERT_EQ(sight.certain, certain);
+      }
+      kept += sifted.count, near += segments.size(), looked_into += sifted.looked_into;
+      listed += count_blocks(list), cut += receiver.horizon_cuts ? 1 : 0;
+    }
+  }
+  std::printf("%zu blocks listed, %zu looked into, %zu edges sifted, %zu near; %zu horizons\n", listed,
+              looked_into, kept, near, cut);
+  EXPECT_GT(near, 1000u);
+  EXPECT_GT(cut, 50u);
+  EXPECT_LT(looked_into, listed);
 }
 
 TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
@@ -202,10 +302,12 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
           {middle + random.point(round % 3 == 0 ? 2.0 : 0.1), {0, 0, -1}, no_horizon(), false, 0});
     Shaft shaft(receivers, band.extent);
     shaft.tighten(receivers);
+    std::vector<Siblings> blocks;
     std::vector<std::uint32_t> edges, narrowed;
     Sifted sifted;
     Sight sight;
-    tree.gather(shaft, edges);
+    tree.gather(shaft, blocks);
+    gather_edges(band, blocks, shaft, edges);
     EdgeList list, half;
     list.assign(band, edges, shaft.middle());
     const std::span<const Receiver> few(receivers.data(), 4);
@@ -221,14 +323,12 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
       for (std::uint32_t i = 0; i < l.size(); ++i) {
         const int jump = sift_one(l, i, x);
         if (jump == 0) continue;
-        singly.places.push_back(l.place(i));
-        singly.jumps.push_back(jump);
+        add_place(l.place(i), jump, singly);
       }
-      ASSERT_EQ(sifted.places, singly.places);
-      ASSERT_EQ(sifted.jumps, singly.jumps);
+      expect_same_places(sifted, singly);
       std::vector<Segment> segments;
       std::size_t found = 0, expected = 0;
-      for (std::size_t i = 0; i < sifted.places.size(); ++i) {
+      for (std::size_t i = 0; i < sifted.count; ++i) {
         const BandEdge& e = l.edge(sifted.places[i]);
         if (sifted.jumps[i] != Sifted::kUnsure) {
           ASSERT_EQ(sifted.jumps[i], jump_at(e, x));
@@ -246,7 +346,7 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
       }
       for (const BandEdge& e : band.edges) expected += see(e, x, 1e-6).near ? 1 : 0;
       ASSERT_EQ(found, expected) << "round " << round;
-      kept += sifted.places.size(), near += found, listed += l.size();
+      kept += sifted.count, near += found, listed += l.size();
     }
   }
   std::printf("%zu listed, %zu sifted, %zu near\n", listed, kept, near);
