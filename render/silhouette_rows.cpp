@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "render/vector_clones.h"
 
@@ -82,8 +83,14 @@ void sweep_lanes(const RowKeys* keys, std::size_t stride, int count, RowLanes& r
 
 }  // namespace
 
+/// Crossing k of row i.
+inline void Rows::set_key(int k, int i, double to) {
+  const std::size_t at = static_cast<std::size_t>(k) * stride_ + static_cast<std::size_t>(i);
+  keys_[at / kLanes].x[at % kLanes] = to;
+}
+
 /// The first row above y. The same rounding for segments and events, so that levels stay whole.
-int Rows::row_above(double y) const {
+inline int Rows::row_above(double y) const {
   return std::clamp(static_cast<int>((y - bottom_) * per_spacing_ + 0.5), 0, rows_);
 }
 
@@ -100,39 +107,35 @@ void Rows::place_rows(const DiskPart& part, int rows) {
   for (int i = 0; i < rows; ++i) ends_[i] = part.span(height(i), DiskPart::half_width(height(i)));
 }
 
-/// Segments that cross a row, and how many do so for each row: at height y those with low < y ≤ high.
+/// Segments that cross a row: at height y those with low < y ≤ high.
 void Rows::find_crossing(const Cut& cut) {
-  crossing_.resize(cut.segments.size() + 1);
+  crossing_.resize(std::max(crossing_.size(), cut.segments.size() + 1));
   std::size_t count = 0;
   for (const Segment& s : cut.segments) {  // most that are short cross no row
     const int from = row_above(s.a.y), to = row_above(s.b.y);
     crossing_[count] = {&s, from, to};
     count += from != to ? 1 : 0;
   }
-  crossing_.resize(count);
-  counts_.assign(stride_, 0);
-  for (const CrossingSegment& c : crossing_)
-    for (int i = std::min(c.from, c.to); i < std::max(c.from, c.to); ++i) ++counts_[i];
+  crossing_count_ = count;
 }
 
-/// The keys of each row, in any order, and kNoCrossing up to the longest row's end.
+/// The keys of each row, in any order, and kNoCrossing up to one behind the longest row's end.
 void Rows::cross(const Cut& cut) {
   find_crossing(cut);
-  const int most = *std::max_element(counts_.begin(), counts_.end());
-  keys_.assign(static_cast<std::size_t>(most + 1) * stride_ / kLanes, RowKeys{Reals{} + kNoCrossing});
-  std::fill(counts_.begin(), counts_.end(), 0);
-  for (const CrossingSegment& c : crossing_) {
+  keys_.resize(std::max(keys_.size(), (crossing_count_ + 1) * stride_ / kLanes));
+  counts_.assign(stride_, 0);
+  for (const CrossingSegment& c : std::span(crossing_).first(crossing_count_)) {
     const Segment& s = *c.segment;
     const bool up = c.to > c.from;
     const glm::dvec2 &low = up ? s.a : s.b, &high = up ? s.b : s.a;
     const double slope = (high.x - low.x) / (high.y - low.y);
     const int change = up ? -s.jump : s.jump;
-    for (int i = std::min(c.from, c.to); i < std::max(c.from, c.to); ++i) {
-      const std::size_t k = static_cast<std::size_t>(counts_[i]++);
-      const std::size_t at = k * stride_ + static_cast<std::size_t>(i);
-      keys_[at / kLanes].x[at % kLanes] = crossing_key(low.x + slope * (height(i) - low.y), change);
-    }
+    for (int i = std::min(c.from, c.to); i < std::max(c.from, c.to); ++i)
+      set_key(counts_[i]++, i, crossing_key(low.x + slope * (height(i) - low.y), change));
   }
+  const int most = *std::max_element(counts_.begin(), counts_.end());
+  for (int i = 0; i < static_cast<int>(stride_); ++i)
+    for (int k = counts_[i]; k <= most; ++k) set_key(k, i, kNoCrossing);
 }
 
 /// Events on the left side of D change the levels at the left ends of all rows above.

@@ -24,8 +24,8 @@ struct RowSums {
       aims;  ///< middles of long intervals at the lowest level, in rows of either parity
 };
 
-/// Numbers that are added, compared and chosen four at a time (an extension of GCC and clang).
-inline constexpr int kRowLanes = 4;
+/// Numbers that are added, compared and chosen eight at a time (an extension of GCC and clang).
+inline constexpr int kRowLanes = 8;
 using Reals = double __attribute__((vector_size(kRowLanes * sizeof(double))));
 using Integers = std::int64_t __attribute__((vector_size(kRowLanes * sizeof(std::int64_t))));
 
@@ -66,6 +66,7 @@ class Rows {
 
   double height(int row) const { return bottom_ + (row + 0.5) * spacing_; }
   int row_above(double y) const;
+  void set_key(int k, int i, double to);
   void place_rows(const DiskPart& part, int rows);
   void find_crossing(const Cut& cut);
   void cross(const Cut& cut);
@@ -80,8 +81,9 @@ class Rows {
   double bottom_ = 0.0, spacing_ = 0.0, per_spacing_ = 0.0;
   bool whole_disk_ = false;  ///< the ends of rows are those of the whole disk
   std::vector<std::pair<double, double>> ends_;
-  std::vector<int> levels_;  ///< at left ends
-  std::vector<CrossingSegment> crossing_;
+  std::vector<int> levels_;                ///< at left ends
+  std::vector<CrossingSegment> crossing_;  ///< the first crossing_count_
+  std::size_t crossing_count_ = 0;
   std::vector<int> counts_;    ///< crossings of each row
   std::vector<RowKeys> keys_;  ///< crossing k of row i is number k · stride + i
 };
