@@ -30,23 +30,23 @@ PENUMBRA_INLINE void order(Reals& before, Reals& after) {
   after = p < q ? q : p;
 }
 
-/// Sorts the first `count` keys of some rows, which follow each other at `stride`: K. Batcher's odd-even
-/// merge sort ("Sorting networks and their applications", 1968), the same exchanges whatever the keys are.
+/// Sorts the first `count` keys of some rows: K. Batcher's odd-even merge sort ("Sorting networks and their
+/// applications", 1968), the same exchanges whatever the keys are.
 PENUMBRA_VECTOR_CLONES
-void sort_lanes(RowKeys* keys, int stride, int count) {
+void sort_lanes(RowKeys* keys, int count) {
   for (int p = 1; p < count; p *= 2)
     for (int k = p; k >= 1; k /= 2)
       for (int j = k % p; j + k < count; j += 2 * k)
         for (int i = j; i < std::min(j + k, count - k); ++i)
-          if ((i & -(2 * p)) == ((i + k) & -(2 * p))) order(keys[i * stride].x, keys[(i + k) * stride].x);
+          if ((i & -(2 * p)) == ((i + k) & -(2 * p))) order(keys[i].x, keys[i + k].x);
 }
 
 /// The same for one of the rows.
-void sort_row(RowKeys* keys, std::size_t stride, int count, int lane) {
+void sort_row(RowKeys* keys, int count, int lane) {
   std::vector<double> row(static_cast<std::size_t>(count));
-  for (std::size_t k = 0; k < row.size(); ++k) row[k] = keys[k * stride].x[lane];
+  for (std::size_t k = 0; k < row.size(); ++k) row[k] = keys[k].x[lane];
   std::sort(row.begin(), row.end());
-  for (std::size_t k = 0; k < row.size(); ++k) keys[k * stride].x[lane] = row[k];
+  for (std::size_t k = 0; k < row.size(); ++k) keys[k].x[lane] = row[k];
 }
 
 /// The intervals that end at the next keys of some rows.
@@ -75,9 +75,9 @@ PENUMBRA_INLINE void sweep_step(const Reals& key, RowLanes& r) {
 }
 
 PENUMBRA_VECTOR_CLONES
-void sweep_lanes(const RowKeys* keys, std::size_t stride, int count, RowLanes& rows) {
+void sweep_lanes(const RowKeys* keys, int count, RowLanes& rows) {
   RowLanes r = rows;
-  for (int k = 0; k < count; ++k) sweep_step(keys[static_cast<std::size_t>(k) * stride].x, r);
+  for (int k = 0; k < count; ++k) sweep_step(keys[k].x, r);
   rows = r;
 }
 
@@ -85,8 +85,7 @@ void sweep_lanes(const RowKeys* keys, std::size_t stride, int count, RowLanes& r
 
 /// Crossing k of row i.
 inline void Rows::set_key(int k, int i, double to) {
-  const std::size_t at = static_cast<std::size_t>(k) * stride_ + static_cast<std::size_t>(i);
-  keys_[at / kLanes].x[at % kLanes] = to;
+  keys_[static_cast<std::size_t>(i / kLanes) * most_ + static_cast<std::size_t>(k)].x[i % kLanes] = to;
 }
 
 /// The first row above y. The same rounding for segments and events, so that levels stay whole.
@@ -119,10 +118,12 @@ void Rows::find_crossing(const Cut& cut) {
   crossing_count_ = count;
 }
 
-/// The keys of each row, in any order, and kNoCrossing up to one behind the longest row's end.
+/// The keys of each row, in any order, and kNoCrossing up to one behind the end of the longest row that it is
+/// swept with.
 void Rows::cross(const Cut& cut) {
   find_crossing(cut);
-  keys_.resize(std::max(keys_.size(), (crossing_count_ + 1) * stride_ / kLanes));
+  most_ = crossing_count_ + 1;
+  keys_.resize(std::max(keys_.size(), most_ * stride_ / kLanes));
   counts_.assign(stride_, 0);
   for (const CrossingSegment& c : std::span(crossing_).first(crossing_count_)) {
     const Segment& s = *c.segment;
@@ -133,9 +134,16 @@ void Rows::cross(const Cut& cut) {
     for (int i = std::min(c.from, c.to); i < std::max(c.from, c.to); ++i)
       set_key(counts_[i]++, i, crossing_key(low.x + slope * (height(i) - low.y), change));
   }
-  const int most = *std::max_element(counts_.begin(), counts_.end());
-  for (int i = 0; i < static_cast<int>(stride_); ++i)
-    for (int k = counts_[i]; k <= most; ++k) set_key(k, i, kNoCrossing);
+  for (int first = 0; first < static_cast<int>(stride_); first += kLanes) {
+    const int longest = longest_from(first);
+    for (int i = first; i < first + kLanes; ++i)
+      for (int k = counts_[i]; k <= longest; ++k) set_key(k, i, kNoCrossing);
+  }
+}
+
+/// The most crossings of a row among those that are swept with row `first`.
+int Rows::longest_from(int first) const {
+  return *std::max_element(counts_.begin() + first, counts_.begin() + first + kLanes);
 }
 
 /// Events on the left side of D change the levels at the left ends of all rows above.
@@ -196,20 +204,19 @@ RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, const S
 
 RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows) {
   return sweep_with(cut, part, rows, [&](int first, RowLanes& lanes) {
-    const int count = *std::max_element(counts_.begin() + first, counts_.begin() + first + kLanes);
-    RowKeys* keys = keys_.data() + first / kLanes;
-    sort_lanes(keys, static_cast<int>(stride_) / kLanes, count);
-    sweep_lanes(keys, stride_ / kLanes, count + 1, lanes);  // the last key of all ends the last interval
+    const int count = longest_from(first);
+    RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kLanes) * most_;
+    sort_lanes(keys, count);
+    sweep_lanes(keys, count + 1, lanes);  // the last key of all ends the last interval
   });
 }
 
 RowSums Rows::sweep_singly(const Cut& cut, const DiskPart& part, int rows) {
   return sweep_with(cut, part, rows, [&](int first, RowLanes& lanes) {
-    RowKeys* keys = keys_.data() + first / kLanes;
-    const std::size_t stride = stride_ / kLanes;
-    for (int l = 0; l < kLanes; ++l) sort_row(keys, stride, counts_[first + l], l);
-    const int count = *std::max_element(counts_.begin() + first, counts_.begin() + first + kLanes);
-    for (int k = 0; k <= count; ++k) sweep_step(keys[static_cast<std::size_t>(k) * stride].x, lanes);
+    RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kLanes) * most_;
+    for (int l = 0; l < kLanes; ++l) sort_row(keys, counts_[first + l], l);
+    const int count = longest_from(first);
+    for (int k = 0; k <= count; ++k) sweep_step(keys[k].x, lanes);
   });
 }
 

@@ -67,6 +67,7 @@ class Rows {
   double height(int row) const { return bottom_ + (row + 0.5) * spacing_; }
   int row_above(double y) const;
   void set_key(int k, int i, double to);
+  int longest_from(int first) const;
   void place_rows(const DiskPart& part, int rows);
   void find_crossing(const Cut& cut);
   void cross(const Cut& cut);
@@ -84,8 +85,10 @@ class Rows {
   std::vector<int> levels_;                ///< at left ends
   std::vector<CrossingSegment> crossing_;  ///< the first crossing_count_
   std::size_t crossing_count_ = 0;
-  std::vector<int> counts_;    ///< crossings of each row
-  std::vector<RowKeys> keys_;  ///< crossing k of row i is number k · stride + i
+  std::vector<int> counts_;  ///< crossings of each row
+  std::size_t most_ = 1;     ///< keys a row
+  std::vector<RowKeys>
+      keys_;  ///< crossing k of row i is lane i mod kRowLanes of number i/kRowLanes · most + k
 };
 
 }  // namespace penumbra::detail
