@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     for (const std::string& name :
          scenes({"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium",
                  "speck-medium", "bunny-medium", "knot1-medium", "armadillo-medium",
-                 "refined_elephant-medium", "foliage-medium", "decorativePlant-medium"}))
+                 "refined_elephant-medium", "foliage-medium", "decorativePlant-medium", "building", "tree"}))
       time_silhouettes(name);
     known = true;
   }
