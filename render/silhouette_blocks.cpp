@@ -71,10 +71,8 @@ std::size_t sift_blocks(const Block* blocks, const std::uint32_t* list, std::siz
 }  // namespace
 
 EdgeBlocks::EdgeBlocks(const Band& band)
-    : band_(band),
-      size_((band.edges.size() + kFloatLanes - 1) / kFloatLanes),
-      blocks_(std::make_unique_for_overwrite<Block[]>(size_)) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size_, 512), [&](const auto& range) {
+    : band_(band), blocks_((band.edges.size() + kFloatLanes - 1) / kFloatLanes) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size(), 512), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) fill(i);
   });
 }
@@ -107,7 +105,7 @@ void EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, c
                                 out.blocks.data());
   at_least(out.places, out.looked_into * kFloatLanes + 1);
   at_least(out.jumps, out.places.size());
-  out.count = sift_blocks(blocks_.get(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
+  out.count = sift_blocks(blocks_.data(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
                           out.places.data(), out.jumps.data());
 }
 

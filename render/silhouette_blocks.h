@@ -7,7 +7,6 @@
 // jump is 0. Whether it meets the disk is left to step 3.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "render/silhouette_list.h"
@@ -28,7 +27,7 @@ class EdgeBlocks {
   int sift_one(std::size_t i, const Vec3& x) const;
 
   const Band& band() const { return band_; }
-  std::size_t bytes() const { return size_ * sizeof(Block); }
+  std::size_t bytes() const { return blocks_.size() * sizeof(Block); }
 
   struct alignas(kFloatLanes * sizeof(float)) Plane {
     Floats x, y, z, offset, tolerance;
@@ -41,8 +40,7 @@ class EdgeBlocks {
   void fill(std::size_t block);
 
   const Band& band_;
-  std::size_t size_;
-  std::unique_ptr<Block[]> blocks_;  ///< not touched before they are filled
+  LargeArray<Block> blocks_;
 };
 
 }  // namespace penumbra::detail

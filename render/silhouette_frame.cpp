@@ -185,10 +185,6 @@ class Unsorted {
     }
   }
   std::size_t size() const { return size_; }
-  /// Of all middles.
-  Bounds box() const {
-    return box_of(size_, [&](std::size_t i) { return middle(i); });
-  }
   Vec3 middle(std::size_t i) const {
     const auto [caster, at] = place(i);
     return at < caster.edges().size() ? caster.middle(caster.edges()[at]) : Vec3(0.0);
@@ -221,13 +217,13 @@ void for_each_index(std::size_t count, const Body& body) {
 }
 
 void fill_along_curve(const Unsorted& unsorted, Band& band) {
-  std::vector<std::uint64_t> codes(unsorted.size());
-  const Bounds box = unsorted.box();
-  for_each_index(codes.size(), [&](std::size_t i) { codes[i] = morton_code(unsorted.middle(i), box); });
+  LargeArray<Vec3> middles(unsorted.size());
+  const Bounds box = box_of(middles.size(), [&](std::size_t i) { return middles[i] = unsorted.middle(i); });
+  std::vector<std::uint64_t> codes(middles.size());
+  for_each_index(codes.size(), [&](std::size_t i) { codes[i] = morton_code(middles[i], box); });
   const std::vector<std::uint32_t> order = sorted_by(codes);
-  band.memory = std::make_unique_for_overwrite<BandEdge[]>(order.size());
-  for_each_index(order.size(), [&](std::size_t i) { band.memory[i] = unsorted.edge(order[i], band.extent); });
-  band.edges = {band.memory.get(), order.size()};
+  band.edges = LargeArray<BandEdge>(order.size());
+  for_each_index(order.size(), [&](std::size_t i) { band.edges[i] = unsorted.edge(order[i], band.extent); });
 }
 
 /// Of the whole scene, receivers included.

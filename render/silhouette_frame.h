@@ -13,10 +13,9 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <memory>
-#include <span>
 #include <vector>
 
+#include "render/large_array.h"
 #include "render/scene.h"
 
 namespace penumbra::detail {
@@ -66,8 +65,7 @@ inline int jump_at(const BandEdge& e, const Vec3& x) {
 }
 
 struct Band {
-  std::span<const BandEdge> edges;  ///< in `memory`, along a Morton curve: neighbours lie close together
-  std::unique_ptr<BandEdge[]> memory;
+  LargeArray<BandEdge> edges;   ///< along a Morton curve: neighbours lie close together
   std::vector<Bounds> casters;  ///< box of each, in the light's frame
   double extent = 1.0;          ///< largest absolute coordinate in the scene, in light radii (at least 1)
   std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, cut_edges = 0;
