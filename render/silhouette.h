@@ -3,7 +3,8 @@
 // In: surface points. Out: V per pixel, and for many of them a certificate. Five steps, one header each:
 //
 //   silhouette_frame.h        casters → the silhouette band in the light's frame
-//   silhouette_gather.h       band, 8×8 receivers → the edges they may see across the disk
+//   silhouette_gather.h       band, 8×8 receivers → the edges they may see across the disk, by a tree over
+//                             blocks of edges (silhouette_tree.h)
 //   silhouette_certificate.h  edges, receiver → segments across the disk; none: wholly lit or wholly in umbra
 //   silhouette_integrate.h    segments → exact integral of the number of hiding faces
 //   silhouette_fuse.h         scanlines → area of the lowest level, exact where only two levels occur
@@ -37,8 +38,8 @@ struct SilhouetteCounts {
   std::size_t receivers = 0;  ///< in front of the light, with some of it above the horizon
   std::size_t certified_lit = 0, certified_umbra = 0, behind_light = 0;
   std::size_t tiles = 0, empty_tiles = 0;  ///< with receivers; of these, without edges
-  std::size_t listed_edges = 0;            ///< sum over tiles of their lists' lengths
-  std::size_t projected_edges = 0;         ///< sum over receivers of their tile's list
+  std::size_t listed_edges = 0;            ///< sum over tiles of their lists' lengths, whole blocks included
+  std::size_t projected_edges = 0;         ///< sum over receivers of the edges they looked at
   std::size_t segments = 0;                ///< sum over receivers of the segments across the disk
   std::size_t integrated = 0;              ///< receivers whose area was integrated
   std::size_t slabs = 0;                   ///< of these, by slabs
@@ -58,9 +59,10 @@ struct SilhouetteResult {
   SilhouetteCounts counts;
 };
 
-/// Cost: faces, plus band edges near each tile, plus per receiver its tile's list and s log s for s segments
-/// across the disk. On all cores of `rays`; the result does not depend on their number. Requires a light of
-/// radius > 0 (UsageError). Throws Cancelled.
+/// Cost: faces, plus band edges near each tile, plus per receiver its part's list (blocks of eight edges
+/// where it is long and the surface is fine) and s log s for s segments across the disk. On all cores of
+/// `rays`; the result does not depend on their number. Requires a light of radius > 0 (UsageError). Throws
+/// Cancelled.
 SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
                                        const SilhouetteOptions& options = {}, const Progress& progress = {});
 

@@ -38,34 +38,32 @@ void tighten_slopes(const Receiver* receivers, std::size_t count, double* __rest
   for (int k = 0; k < kShaftSides; ++k) slope[k] = most[k];
 }
 
-/// Whether a box lies beyond one of the shaft's sides, d·p.xy - 1 - slope p.z > 0. All sides at once, without
-/// branches.
-PENUMBRA_VECTOR_CLONES
-bool box_is_beyond(const Vec3& low, const Vec3& high, const double* slope, double margin) {
+/// Whether something lies beyond one of the shaft's sides d·p.xy - 1 - slope p.z > 0, given the least of
+/// d·p.xy - slope p.z over it. All sides at once, without branches.
+template <class Least>
+PENUMBRA_INLINE bool is_beyond_some_side(const double* slope, double margin, const Least& least) {
   const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
-  const double x0 = low.x, x1 = high.x, y0 = low.y, y1 = high.y, z0 = low.z, z1 = high.z;
   int any = 0;
-  for (int k = 0; k < kShaftSides; ++k) {
-    const double x = cosine[k] > 0.0 ? cosine[k] * x0 : cosine[k] * x1;
-    const double y = sine[k] > 0.0 ? sine[k] * y0 : sine[k] * y1;
-    const double z = slope[k] > 0.0 ? slope[k] * z1 : slope[k] * z0;
-    any |= x + y - 1.0 - z > margin * (1.0 + std::abs(slope[k])) ? 1 : 0;
-  }
+  for (int k = 0; k < kShaftSides; ++k)
+    any |= least(cosine[k], sine[k], slope[k]) - 1.0 > margin * (1.0 + std::abs(slope[k])) ? 1 : 0;
   return any != 0;
 }
 
-/// The same for an edge.
+PENUMBRA_VECTOR_CLONES
+bool box_is_beyond(const Vec3& low, const Vec3& high, const double* slope, double margin) {
+  const double x0 = low.x, x1 = high.x, y0 = low.y, y1 = high.y, z0 = low.z, z1 = high.z;
+  return is_beyond_some_side(slope, margin, [=](double c, double s, double rise) {
+    return (c > 0.0 ? c * x0 : c * x1) + (s > 0.0 ? s * y0 : s * y1) - (rise > 0.0 ? rise * z1 : rise * z0);
+  });
+}
+
 PENUMBRA_VECTOR_CLONES
 bool edge_is_beyond(const Vec3& a, const Vec3& b, const double* slope, double margin) {
-  const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
   const double ax = a.x, ay = a.y, az = a.z, bx = b.x, by = b.y, bz = b.z;
-  int any = 0;
-  for (int k = 0; k < kShaftSides; ++k) {
-    const double at_a = cosine[k] * ax + sine[k] * ay - 1.0 - slope[k] * az;
-    const double at_b = cosine[k] * bx + sine[k] * by - 1.0 - slope[k] * bz;
-    any |= (at_a < at_b ? at_a : at_b) > margin * (1.0 + std::abs(slope[k])) ? 1 : 0;
-  }
-  return any != 0;
+  return is_beyond_some_side(slope, margin, [=](double c, double s, double rise) {
+    const double at_a = c * ax + s * ay - rise * az, at_b = c * bx + s * by - rise * bz;
+    return at_a < at_b ? at_a : at_b;
+  });
 }
 
 /// Half the range of n·p over a box of the given half size.
