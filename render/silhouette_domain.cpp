@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/arc_sine.h"
+
 namespace penumbra::detail {
 namespace {
 
@@ -101,7 +103,7 @@ bool DiskPart::before_bottom(const Event& e) const {
 
 double DiskPart::walked(const Event& e) const {
   if (!cut_) {
-    const double angle = std::asin(std::clamp(e.at.y, -1.0, 1.0));
+    const double angle = arc_sine(std::clamp(e.at.y, -1.0, 1.0));
     return on_left(e) ? 0.5 * (1.5 * kPi - angle) : 0.5 * (0.5 * kPi + angle);
   }
   return from_chord_start(e) - bottom_walk_ + (before_bottom(e) ? area_ : 0.0);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/arc_sine.h"
+
 namespace penumbra::detail {
 namespace {
 
@@ -12,10 +14,13 @@ constexpr double kLeastLength = 1e-10;  // an interval shorter than that is roun
 constexpr double kLeastRoom = 1e-3;     // beside a chain, for a ray
 constexpr std::size_t kMostForSlabs = 28;  // segments; beyond, rows are faster and no less exact
 
-/// ∫ √(1 - y²) dy from 0.
-double rim_integral(double y) {
-  y = std::clamp(y, -1.0, 1.0);
-  return 0.5 * (y * std::sqrt((1.0 - y) * (1.0 + y)) + std::asin(y));
+/// ∫ √(1 - y²) dy from 0 to each height.
+PENUMBRA_VECTOR_CLONES
+void integrate_rim(const double* heights, std::size_t count, double* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double y = heights[i] < -1.0 ? -1.0 : heights[i] > 1.0 ? 1.0 : heights[i];
+    out[i] = 0.5 * (y * std::sqrt((1.0 - y) * (1.0 + y)) + arc_sine(y));
+  }
 }
 
 }  // namespace
@@ -124,6 +129,8 @@ void Fuser::make_heights(const DiskPart& part, const Cut& cut) {
       if (at_low * at_high < 0.0) heights_.push_back(low + (high - low) * (at_low / (at_low - at_high)));
     }
   std::sort(heights_.begin(), heights_.end());
+  rim_.resize(heights_.size());
+  integrate_rim(heights_.data(), heights_.size(), rim_.data());
 }
 
 Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part) {
@@ -132,13 +139,13 @@ Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part) {
     if (s.a.y != s.b.y) add_line(s);
   make_heights(part, cut);
   begin();
-  double rim_before = rim_integral(heights_.front());
+  std::size_t before = 0;  // the height where the last slab ended
   for (std::size_t i = 1; i < heights_.size(); ++i) {
     const double low = heights_[i - 1], high = heights_[i], height = high - low;
     if (!(height > kLeastLength)) continue;
-    const double y = 0.5 * (low + high), rim = rim_integral(high);
-    const auto [left, right] = part.span(y, (rim - rim_before) / height);
-    rim_before = rim;
+    const double y = 0.5 * (low + high);
+    const auto [left, right] = part.span(y, (rim_[i] - rim_[before]) / height);
+    before = i;
     Slab slab{y, height, left, right, 0};
     for (const Event& e : cut.events)
       if (e.at.y < y && part.on_left(e)) slab.first_level -= e.change;

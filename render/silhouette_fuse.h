@@ -75,7 +75,7 @@ class Fuser {
 
   Rows rows_;
   std::vector<Line> lines_;
-  std::vector<double> heights_;
+  std::vector<double> heights_, rim_;  ///< and the rim's integral up to them
   std::vector<Crossing> crossings_;
   std::vector<double> areas_;  ///< by level
   std::array<Aim, 2> aims_;    ///< in the lowest level so far, in slabs of either parity

@@ -7,10 +7,21 @@
 #include <limits>
 #include <numbers>
 
+#include "render/arc_sine.h"
+
 namespace penumbra {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+
+TEST(ArcSine, IsThatOfTheLibrary) {
+  double worst = 0.0;
+  for (int i = -200'000; i <= 200'000; ++i)
+    worst = std::max(worst, std::abs(detail::arc_sine(i / 200'000.0) - std::asin(i / 200'000.0)));
+  for (const double x : {0.5, -0.5, std::nextafter(0.5, 1.0), 1e-300, std::nextafter(1.0, 0.0)})
+    worst = std::max(worst, std::abs(detail::arc_sine(x) - std::asin(x)));
+  EXPECT_LE(worst, 5e-16);
+}
 
 TEST(ChordOfPlane, OfAnEdgeParallelToTheLight) {
   // The plane through the receiver on the axis and the line x = 0.25 at half its depth meets the light in x =
