@@ -41,8 +41,10 @@ void add_reference_options(CLI::App& command, ReferenceOptions& options) {
 
 void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
   const char* group = "Method dbuffer: what the light's center sees of the penumbra (OpenGL)";
-  command.add_option("--dbuffer-size", options.size, "Texels a side of the D-buffer")
-      ->check(CLI::Range(16, 8'192))
+  command
+      .add_option("--dbuffer-size", options.size,
+                  "Texels a side of the D-buffer, 16 to 8192; 0: the root of the image's pixels")
+      ->check(CLI::Range(16, 8'192) | CLI::IsMember({0}))
       ->capture_default_str()
       ->group(group);
   add_choice(command, "--dbuffer", options.contents, d_buffer_contents(),

@@ -13,17 +13,20 @@
 #include "render/vector_clones.h"
 
 namespace penumbra {
+
+/// Sixteen receivers, local frame.
+struct detail::ReceiverLanes {
+  const float *x, *y, *z, *nx, *ny, *nz;
+};
+
 namespace {
+
+using detail::ReceiverLanes;
 
 constexpr std::size_t kLanes = 16;
 constexpr int kBlock = 4;  // pixels a side that share a packet
 /// What a cut reads as that only the ray towards the light finds: the two directions round differently.
 constexpr float kAlmostThere = 1.0f - 0x1p-20f;
-
-/// Sixteen receivers, local frame.
-struct Receivers {
-  const float *x, *y, *z, *nx, *ny, *nz;
-};
 
 struct LocalDisk {
   float x, y, z;     ///< center
@@ -31,9 +34,14 @@ struct LocalDisk {
   float radius;
 };
 
+LocalDisk local_disk(const DiskLight& light, const RayFrame& frame) {
+  const glm::vec3 center(frame.to_local(light.center)), m(light_frame(light).w);
+  return {center.x, center.y, center.z, m.x, m.y, m.z, static_cast<float>(light.radius * frame.scale)};
+}
+
 /// Directions to the points aimed at; 0 in `wanted` where no ray is needed.
 PENUMBRA_VECTOR_CLONES
-void aim(const Receivers& from, const LocalDisk& disk, RTCRay16& packet, int* wanted) {
+void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int* wanted) {
   for (std::size_t k = 0; k < kLanes; ++k) {
     const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
     const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
@@ -53,6 +61,24 @@ void aim(const Receivers& from, const LocalDisk& disk, RTCRay16& packet, int* wa
   }
 }
 
+/// The chord that each horizon cuts off the disk, as its signed distance from the center in radii: 1 and more
+/// where all of the disk is above, -1 behind the light. Heights are of the surface, not of the rays' origins.
+PENUMBRA_VECTOR_CLONES
+void horizon_chords(const ReceiverLanes& from, const LocalDisk& disk, float* delta) {
+  constexpr float kOffset = static_cast<float>(kRayOffset);
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
+    const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
+    const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
+    const float ux = nx - along * disk.mx, uy = ny - along * disk.my, uz = nz - along * disk.mz;
+    const float reach = disk.radius * std::sqrt(ux * ux + uy * uy + uz * uz);
+    const float height = nx * x + ny * y + nz * z + kOffset;
+    const float behind = x * disk.mx + y * disk.my + z * disk.mz;
+    const float inside = height / std::max(reach, 1e-30f);
+    delta[k] = behind >= 0.0f ? -1.0f : height >= reach ? 1.0f : inside;
+  }
+}
+
 /// Sixteen rays, first from receivers to see whether anything is in the way, then back for what the light
 /// meets first.
 struct Packet {
@@ -67,7 +93,7 @@ struct Packet {
 
   /// Leaves in `wanted` the lanes that are cut, and where in the ray's tfar: 0 at the light, 1 at the
   /// receiver.
-  void find_first_cuts(const Receivers& from, RTCScene casters) {
+  void find_first_cuts(const ReceiverLanes& from, RTCScene casters) {
     RTCRay16& ray = hits.ray;
     for (std::size_t k = 0; k < kLanes; ++k) {
       ray.org_x[k] = from.x[k], ray.org_y[k] = from.y[k], ray.org_z[k] = from.z[k];
@@ -112,44 +138,37 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
           add(static_cast<std::uint32_t>(y * surface.width + x));
 }
 
+detail::ReceiverLanes CenterRays::lanes(std::size_t first) const {
+  return {&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
+}
+
 std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
   std::vector<float> out(pixels_, 1.0f);
-  const RayFrame& frame = rays_.frame();
-  const glm::vec3 center(frame.to_local(light.center)), m(light_frame(light).w);
-  const auto radius = static_cast<float>(light.radius * frame.scale);
-  rays_.impl().arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixel_.size(), 4096), [&](const auto& range) {
-      for (std::size_t k = range.begin(); k < range.end(); ++k) {
-        const glm::vec3 d = center - glm::vec3(x_[k], y_[k], z_[k]), n(nx_[k], ny_[k], nz_[k]);
-        const float height =
-            glm::dot(n, d) + static_cast<float>(kRayOffset);  // of the surface, not of the ray's origin
-        const float reach = radius * glm::length(n - glm::dot(n, m) * m);
-        const bool lit = glm::dot(d, m) < 0.0f && height > -reach;
-        out[pixel_[k]] = !lit              ? 0.0f
-                         : height >= reach ? 1.0f
-                                           : static_cast<float>(half_plane_area(height / reach));
-      }
-    });
-  });
+  const LocalDisk disk = local_disk(light, rays_.frame());
+  const auto look = [&](const tbb::blocked_range<std::size_t>& packets) {
+    float delta[kLanes];
+    for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
+      const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
+      horizon_chords(lanes(first), disk, delta);
+      for (std::size_t k = 0; k < count; ++k)
+        out[pixel_[first + k]] = delta[k] >= 1.0f   ? 1.0f
+                                 : delta[k] > -1.0f ? static_cast<float>(half_plane_area(delta[k]))
+                                                    : 0.0f;
+    }
+  };
+  rays_.impl().arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 256), look); });
   return out;
 }
 
 std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
   std::vector<float> out(pixels_, 1.0f);
-  const RayFrame& frame = rays_.frame();
-  const glm::vec3 center(frame.to_local(light.center)), normal(light_frame(light).w);
-  const LocalDisk disk{center.x,
-                       center.y,
-                       center.z,
-                       normal.x,
-                       normal.y,
-                       normal.z,
-                       static_cast<float>(light.radius * frame.scale)};
+  const LocalDisk disk = local_disk(light, rays_.frame());
   const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
     Packet packet;
     for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
       const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
-      const Receivers from{&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
+      const ReceiverLanes from = lanes(first);
       aim(from, disk, packet.hits.ray, packet.wanted);
       for (std::size_t k = count; k < kLanes; ++k) packet.wanted[k] = 0;
       packet.find_first_cuts(from, rays_.impl().casters);

@@ -15,6 +15,9 @@
 #include "render/surface_buffer.h"
 
 namespace penumbra {
+namespace detail {
+struct ReceiverLanes;
+}
 
 class CenterRays {
  public:
@@ -38,6 +41,8 @@ class CenterRays {
   std::vector<float> above_horizon(const DiskLight& light) const;
 
  private:
+  detail::ReceiverLanes lanes(std::size_t first) const;
+
   const RayScene& rays_;
   std::size_t pixels_;                ///< of the surface buffer
   std::vector<std::uint32_t> pixel_;  ///< that see a surface, in blocks

@@ -54,7 +54,7 @@ std::span<const NamedValue<CenterTest>> center_tests();
 std::span<const NamedValue<EntryCheck>> entry_checks();
 
 struct DBufferOptions {
-  int size = 1024;  ///< texels a side of each target, 16 to 8192
+  int size = 0;  ///< texels a side of each target, 16 to 8192; 0: d_buffer_size_for the image
   DBufferContents contents = DBufferContents::kEdge;
   int entries = 1;  ///< entries kept per texel and kind of boundary, 1 or 2 (2: kEdge and kNearest only)
   VisibilityCurve curve = VisibilityCurve::kExact;
@@ -63,6 +63,10 @@ struct DBufferOptions {
   EntryCheck check =
       EntryCheck::kRays;  ///< what drops wrong entries; needs kEdge, one entry, kExact and kRay
 };
+
+/// Texels a side that are about as many as the image's pixels: the root of their number, up to the next
+/// multiple of 64, 512 to 4096. More shows in few scenes (README), and rasterisation grows with the area.
+int d_buffer_size_for(int width, int height);
 
 struct DBufferFrame {
   std::vector<float> visibility;  ///< one per pixel of the surface buffer; 1 where nothing is seen

@@ -25,6 +25,12 @@ bool checks(const DBufferOptions& o) {
          o.curve == VisibilityCurve::kExact && o.center == CenterTest::kRay;
 }
 
+/// Whether the visibility without entries is in the image before the passes begin, at every pixel that no
+/// entry touches.
+bool is_known(const DBufferOptions& o, int targets) {
+  return o.center == CenterTest::kRay && targets <= 1;
+}
+
 }  // namespace
 
 /// One set for each way of reading the D-buffer.
@@ -35,8 +41,10 @@ struct DBufferShading::Programs {
         entries(options.entries),
         target_count(targets),
         checked(checks(options)),
+        known(is_known(options, targets)),
         center(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_center.frag.glsl"}}, {{"TARGETS", targets}}),
-        select(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}}, {{"TARGETS", targets}}),
+        select(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}},
+               {{"TARGETS", targets}, {"KNOWN", known}}),
         visibility(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}},
                    {{"TARGETS", targets},
                     {"CONTENTS", static_cast<int>(contents)},
@@ -45,14 +53,14 @@ struct DBufferShading::Programs {
                     {"CHECK", checked}}) {}
   bool fits(const DBufferOptions& options, int targets) const {
     return contents == options.contents && curve == options.curve && entries == options.entries &&
-           checked == checks(options) && target_count == targets;
+           checked == checks(options) && known == is_known(options, targets) && target_count == targets;
   }
 
   static constexpr Program::Stage kTiles{GL_VERTEX_SHADER, "image_tiles.vert.glsl"};
   DBufferContents contents;
   VisibilityCurve curve;
   int entries, target_count;
-  bool checked;
+  bool checked, known;
   Program center, select, visibility;
 };
 
@@ -168,14 +176,13 @@ void DBufferShading::shade_pixels(const Program& program, const DBufferView& vie
 
 /// The parts of the image that the passes visit, at depth 0.5: all, where the visibility without entries is
 /// not known yet.
-void DBufferShading::choose_tiles(const DBufferView& view, const EntryGeometry& geometry,
-                                  const DBufferOptions& options) {
-  const bool known = options.center == CenterTest::kRay && view.targets.size() <= 1;
+void DBufferShading::choose_tiles(const DBufferView& view, const ReceiverGrid& grid,
+                                  const EntryGeometry& geometry, const DBufferOptions& options) {
   std::vector<glm::vec2> tiles;
-  if (!known)
+  if (!is_known(options, static_cast<int>(view.targets.size())) || grid.is_everywhere())
     tiles = whole_image();
   else if (!view.targets.empty())
-    tiles = tiles_with_entries(receivers(view), geometry, view.targets[0]);
+    tiles = tiles_with_entries(receivers(view), grid, geometry, view.targets[0]);
   tile_vertices_ = static_cast<GLsizei>(tiles.size());
   gl_.BindVertexArray(tile_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_);
@@ -208,10 +215,11 @@ void DBufferShading::check(const DiskLight& light, std::vector<float>& visibilit
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
 /// second.
 std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferView& view,
-                                         const EntryGeometry& geometry, const DBufferLayers& layers,
-                                         GLuint records, const DBufferOptions& options) {
+                                         const ReceiverGrid& grid, const EntryGeometry& geometry,
+                                         const DBufferLayers& layers, GLuint records,
+                                         const DBufferOptions& options) {
   Programs& with = programs(view, options);
-  choose_tiles(view, geometry, options);
+  choose_tiles(view, grid, geometry, options);
   gl_.Viewport(0, 0, width_, height_);
   if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, records);
   const GLenum colors[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
@@ -223,7 +231,7 @@ std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferVi
   gl::require_complete_framebuffer(gl_, "shading from the D-buffer");
   const float nowhere[4] = {2.0f, 2.0f, 0.0f, 0.0f};
   if (with.checked) gl_.ClearBufferfv(GL_COLOR, 1, nowhere);
-  gl_.DrawBuffers(1, colors);
+  gl_.DrawBuffers(with.known ? 0 : 1, colors);
   gl_.DepthFunc(GL_ALWAYS);
   shade_pixels(with.select, view, layers, records);
   gl_.DrawBuffers(with.checked ? 2 : 1, colors);

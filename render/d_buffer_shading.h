@@ -30,22 +30,26 @@ class DBufferShading {
   /// number over all objects, 0 where nothing is seen. Uploads them. `rays` must outlive this.
   void set_surface(const SurfaceBuffer& surface, std::vector<glm::vec4> positions, const RayScene& rays);
   bool has_surface() const { return width_ > 0; }
+  int automatic_size() const { return d_buffer_size_for(width_, height_); }
 
   /// One ray a pixel to the light's center; `cuts` and the visibility where no entry applies come of it.
   void trace_center(const DiskLight& light);
   /// Who will read the only target, after trace_center.
   ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
 
-  /// Visibility of every pixel. The framebuffer that is bound is used and its attachments are replaced.
-  /// `records` is the buffer texture of facets.
-  std::vector<float> shade(const DiskLight& light, const DBufferView& view, const EntryGeometry& geometry,
-                           const DBufferLayers& layers, GLuint records, const DBufferOptions& options);
+  /// Visibility of every pixel. `grid` says who reads what, as from receiver_grid, or is everywhere. The
+  /// framebuffer that is bound is used and its attachments are replaced. `records` is the buffer texture of
+  /// facets.
+  std::vector<float> shade(const DiskLight& light, const DBufferView& view, const ReceiverGrid& grid,
+                           const EntryGeometry& geometry, const DBufferLayers& layers, GLuint records,
+                           const DBufferOptions& options);
 
  private:
   struct Programs;
   ImageReceivers receivers(const DBufferView& view) const;
   Programs& programs(const DBufferView& view, const DBufferOptions& options);
-  void choose_tiles(const DBufferView& view, const EntryGeometry& geometry, const DBufferOptions& options);
+  void choose_tiles(const DBufferView& view, const ReceiverGrid& grid, const EntryGeometry& geometry,
+                    const DBufferOptions& options);
   void test_center_by_depth(const Programs& programs, const DBufferView& view, const DBufferLayers& layers,
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
