@@ -67,7 +67,7 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
              "How it is told whether the light's center is hidden: by a ray, or by the texel's first surface")
       ->group(group);
   add_choice(command, "--dbuffer-check", options.check, entry_checks(),
-             "Whether a few rays a pixel may drop wrong entries (edge, exact and one entry only)")
+             "Whether rays are asked where entries contradict each other (with edge and exact)")
       ->group(group);
 }
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/disk_area.h"
+#include "render/disk_samples.h"
 #include "render/ray_scene_impl.h"
 #include "render/vector_clones.h"
 
@@ -61,22 +62,29 @@ void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int
   }
 }
 
-/// The chord that each horizon cuts off the disk, as its signed distance from the center in radii: 1 and more
-/// where all of the disk is above, -1 behind the light. Heights are of the surface, not of the rays' origins.
+/// The chord that a receiver's horizon cuts off the disk, as its signed distance from the center in radii: 1
+/// and more where all of the disk is above, -1 behind the light. Heights are of the surface, not of the ray's
+/// origin.
+PENUMBRA_INLINE float horizon_chord(const ReceiverLanes& from, std::size_t k, const LocalDisk& disk) {
+  const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
+  const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
+  const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
+  const float ux = nx - along * disk.mx, uy = ny - along * disk.my, uz = nz - along * disk.mz;
+  const float reach = disk.radius * std::sqrt(ux * ux + uy * uy + uz * uz);
+  const float height = nx * x + ny * y + nz * z + static_cast<float>(kRayOffset);
+  const float behind = x * disk.mx + y * disk.my + z * disk.mz;
+  const float inside = height / std::max(reach, 1e-30f);
+  return behind >= 0.0f ? -1.0f : height >= reach ? 1.0f : inside;
+}
+
 PENUMBRA_VECTOR_CLONES
 void horizon_chords(const ReceiverLanes& from, const LocalDisk& disk, float* delta) {
-  constexpr float kOffset = static_cast<float>(kRayOffset);
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
-    const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
-    const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
-    const float ux = nx - along * disk.mx, uy = ny - along * disk.my, uz = nz - along * disk.mz;
-    const float reach = disk.radius * std::sqrt(ux * ux + uy * uy + uz * uz);
-    const float height = nx * x + ny * y + nz * z + kOffset;
-    const float behind = x * disk.mx + y * disk.my + z * disk.mz;
-    const float inside = height / std::max(reach, 1e-30f);
-    delta[k] = behind >= 0.0f ? -1.0f : height >= reach ? 1.0f : inside;
-  }
+  for (std::size_t k = 0; k < kLanes; ++k) delta[k] = horizon_chord(from, k, disk);
+}
+
+/// What lies beyond a chord.
+float open_fraction(float delta) {
+  return delta >= 1.0f ? 1.0f : delta > -1.0f ? static_cast<float>(half_plane_area(delta)) : 0.0f;
 }
 
 /// Sixteen rays, first from receivers to see whether anything is in the way, then back for what the light
@@ -116,7 +124,7 @@ struct Packet {
 }  // namespace
 
 CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
-    : rays_(rays), pixels_(surface.size()) {
+    : rays_(rays), pixels_(surface.size()), place_(surface.size(), 0) {
   const auto count = static_cast<std::size_t>(
       std::count_if(surface.object.begin(), surface.object.end(), [](int object) { return object >= 0; }));
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
@@ -127,6 +135,7 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
     const Vec3& n = surface.normal[i];
     const glm::vec3 p(rays.frame().to_local(surface.position[i]) + kRayOffset * n);
     const std::size_t k = pixel_.size();
+    place_[i] = static_cast<std::uint32_t>(k);
     x_[k] = p.x, y_[k] = p.y, z_[k] = p.z;
     nx_[k] = static_cast<float>(n.x), ny_[k] = static_cast<float>(n.y), nz_[k] = static_cast<float>(n.z);
     pixel_.push_back(i);
@@ -150,10 +159,7 @@ std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
     for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
       const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
       horizon_chords(lanes(first), disk, delta);
-      for (std::size_t k = 0; k < count; ++k)
-        out[pixel_[first + k]] = delta[k] >= 1.0f   ? 1.0f
-                                 : delta[k] > -1.0f ? static_cast<float>(half_plane_area(delta[k]))
-                                                    : 0.0f;
+      for (std::size_t k = 0; k < count; ++k) out[pixel_[first + k]] = open_fraction(delta[k]);
     }
   };
   rays_.impl().arena.execute(
@@ -183,70 +189,51 @@ std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
 
 namespace {
 
-/// Points of the disk that are asked in turn, in radii: three across what lies beyond a chord whose middle is
-/// `aim`, and three round the rest.
-std::array<glm::vec2, 6> places_to_ask(const glm::vec2& aim) {
-  const float size = glm::length(aim);
-  const glm::vec2 to = aim / std::max(size, 1e-6f), across(-to.y, to.x);
-  const float half = 0.6f * std::sqrt(std::max(0.0f, 1.0f - size * size)), rest = 0.75f;
-  return {aim, aim + half * across, aim - half * across, -rest * to, rest * across, -rest * across};
+/// The middles of four by four strata, mapped to the disk.
+std::array<detail::DiskPoint, kLanes> middles_of_strata() {
+  std::array<detail::DiskPoint, kLanes> out;
+  for (std::size_t k = 0; k < kLanes; ++k)
+    out[k] = detail::concentric_disk((static_cast<float>(k % 4) + 0.5f) / 4.0f,
+                                     (static_cast<float>(k / 4) + 0.5f) / 4.0f);
+  return out;
 }
 
 }  // namespace
 
-std::vector<char> CenterRays::refuted(const DiskLight& light, std::span<const glm::vec2> aims,
-                                      std::span<const float> cuts) const {
-  std::vector<char> out(pixels_, 0);
-  const RayFrame& frame = rays_.frame();
+std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
+                                                  std::span<const std::uint32_t> pixels) const {
   const LightFrame axes = light_frame(light);
-  const double radius = light.radius * frame.scale;
-  const glm::vec3 center(frame.to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
-  const auto ask = [&](std::span<const std::uint32_t> lanes) {
-    std::array<glm::vec2, 6> places[kLanes];
-    alignas(64) int open[kLanes] = {};  // -1: nothing speaks for the entry yet
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      places[lane] = places_to_ask(aims[pixel_[lanes[lane]]]);
-      open[lane] = -1;
+  const double radius = light.radius * rays_.frame().scale;
+  const glm::vec3 center(rays_.frame().to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
+  const LocalDisk disk = local_disk(light, rays_.frame());
+  const auto points = middles_of_strata();
+  const auto look = [&](std::uint32_t pixel) {
+    const std::uint32_t at = place_[pixel];
+    const glm::vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
+    const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
+    if (!(open > 0.0f)) return 0.0f;
+    alignas(64) RTCRay16 ray{};
+    alignas(64) int above[kLanes];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const glm::vec3 way = center + points[k].x * u + points[k].y * v - from;
+      ray.org_x[k] = from.x, ray.org_y[k] = from.y, ray.org_z[k] = from.z;
+      ray.dir_x[k] = way.x, ray.dir_y[k] = way.y, ray.dir_z[k] = way.z;
+      ray.tfar[k] = 1.0f, ray.mask[k] = ~0u;
+      above[k] = glm::dot(way, n) > 0.0f ? -1 : 0;
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    for (std::size_t turn = 0; turn < places[0].size(); ++turn) {
-      alignas(64) RTCRay16 ray{};
-      alignas(64) int wanted[kLanes] = {};
-      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-        const std::uint32_t k = lanes[lane];
-        const glm::vec2 at = places[lane][turn];
-        const glm::vec3 from(x_[k], y_[k], z_[k]), way = center + at.x * u + at.y * v - from;
-        ray.org_x[lane] = from.x, ray.org_y[lane] = from.y, ray.org_z[lane] = from.z;
-        ray.dir_x[lane] = way.x, ray.dir_y[lane] = way.y, ray.dir_z[lane] = way.z;
-        ray.tfar[lane] = 1.0f, ray.mask[lane] = ~0u;
-        // What is below the horizon says nothing.
-        const bool above = way.x * nx_[k] + way.y * ny_[k] + way.z * nz_[k] > 0.0f;
-        wanted[lane] = open[lane] && above ? -1 : 0;
-      }
-      rtcOccluded16(wanted, rays_.impl().casters, &context, &ray);
-      bool any = false;
-      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-        const bool blocked = ray.tfar[lane] < 0.0f, hidden = cuts[pixel_[lanes[lane]]] < 1.0f;
-        if (wanted[lane] && blocked != hidden) open[lane] = 0;
-        any = any || open[lane];
-      }
-      if (!any) break;
-    }
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) out[pixel_[lanes[lane]]] = open[lane] != 0;
+    rtcOccluded16(above, rays_.impl().casters, &context, &ray);
+    int asked = 0, seen = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) asked += above[k] != 0, seen += above[k] && ray.tfar[k] >= 0.0f;
+    return asked > 0 ? open * static_cast<float>(seen) / static_cast<float>(asked) : open;
   };
-  const auto ask_in = [&](const tbb::blocked_range<std::size_t>& places) {
-    std::array<std::uint32_t, kLanes> lanes;  // places in pixel_
-    std::size_t count = 0;
-    for (std::size_t k = places.begin(); k < places.end(); ++k) {
-      if (glm::length(aims[pixel_[k]]) > 1.0f) continue;
-      lanes[count++] = static_cast<std::uint32_t>(k);
-      if (count == kLanes) ask(std::span(lanes)), count = 0;
-    }
-    if (count > 0) ask(std::span(lanes).first(count));
-  };
-  rays_.impl().arena.execute(
-      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixel_.size(), 4096), ask_in); });
+  std::vector<float> out(pixels.size());
+  rays_.impl().arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 64), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) out[i] = look(pixels[i]);
+    });
+  });
   return out;
 }
 

@@ -293,6 +293,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
       shading.shade(light, plan.view(), plan.receivers, plan.geometry, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
+  frame.counts["sampled_pixels"] = shading.sampled();
   frame.counts["buffer_size"] = options.size;
   frame.counts["buffer_bytes"] = layers->bytes();
   frame.stages = clock.stages();

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/d_buffer_passes.h"
+#include "render/visibility_steps.h"
 
 namespace penumbra::detail {
 namespace {
@@ -19,9 +20,9 @@ std::unique_ptr<Object> image_texture(const gl::Functions& gl, GLenum format, in
   return texture;
 }
 
-/// Whether rays are asked about entries: only an edge says which part of the disk is lit.
+/// Whether rays are asked where entries contradict each other: the paper's own method knows no rays.
 bool checks(const DBufferOptions& o) {
-  return o.check == EntryCheck::kRays && o.contents == DBufferContents::kEdge && o.entries == 1 &&
+  return o.check == EntryCheck::kRays && o.contents == DBufferContents::kEdge &&
          o.curve == VisibilityCurve::kExact && o.center == CenterTest::kRay;
 }
 
@@ -40,7 +41,6 @@ struct DBufferShading::Programs {
         curve(options.curve),
         entries(options.entries),
         target_count(targets),
-        checked(checks(options)),
         known(is_known(options, targets)),
         center(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_center.frag.glsl"}}, {{"TARGETS", targets}}),
         select(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}},
@@ -49,18 +49,17 @@ struct DBufferShading::Programs {
                    {{"TARGETS", targets},
                     {"CONTENTS", static_cast<int>(contents)},
                     {"CURVE", static_cast<int>(curve)},
-                    {"ENTRIES", entries},
-                    {"CHECK", checked}}) {}
+                    {"ENTRIES", entries}}) {}
   bool fits(const DBufferOptions& options, int targets) const {
     return contents == options.contents && curve == options.curve && entries == options.entries &&
-           checked == checks(options) && known == is_known(options, targets) && target_count == targets;
+           known == is_known(options, targets) && target_count == targets;
   }
 
   static constexpr Program::Stage kTiles{GL_VERTEX_SHADER, "image_tiles.vert.glsl"};
   DBufferContents contents;
   VisibilityCurve curve;
   int entries, target_count;
-  bool checked, known;
+  bool known;
   Program center, select, visibility;
 };
 
@@ -86,7 +85,6 @@ void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::
   surface_normal_ = upload(normals_);
   visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
-  aim_texture_ = image_texture(gl_, GL_RG32F, width_, height_);
   first_cut_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
   cuts_.clear();
@@ -202,14 +200,12 @@ void DBufferShading::test_center_by_depth(const Programs& programs, const DBuffe
   gl_.Finish();
 }
 
-/// Drops the entries that rays refute.
+/// Asks rays where entries contradict each other.
 void DBufferShading::check(const DiskLight& light, std::vector<float>& visibility) {
-  aims_.resize(visibility.size());
-  gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RG, GL_FLOAT, aims_.data());
-  const std::vector<char> refuted = center_rays_->refuted(light, aims_, cuts_);
-  for (std::size_t i = 0; i < visibility.size(); ++i)
-    if (refuted[i]) visibility[i] = without_entries_[i];
+  const auto ask = [&](std::span<const std::uint32_t> pixels) {
+    return center_rays_->sampled_visibility(light, pixels);
+  };
+  sampled_ = ask_beside_steps({width_, height_, positions_, normals_}, ask, visibility);
 }
 
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
@@ -222,28 +218,22 @@ std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferVi
   choose_tiles(view, grid, geometry, options);
   gl_.Viewport(0, 0, width_, height_);
   if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, records);
-  const GLenum colors[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[0], GL_TEXTURE_2D, *visibility_texture_, 0);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[1], GL_TEXTURE_2D, with.checked ? GLuint(*aim_texture_) : 0,
-                           0);
+  const GLenum color = GL_COLOR_ATTACHMENT0;
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, color, GL_TEXTURE_2D, *visibility_texture_, 0);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *mark_texture_, 0);
-  gl_.DrawBuffers(with.checked ? 2 : 1, colors);
+  gl_.DrawBuffers(with.known ? 0 : 1, &color);
   gl::require_complete_framebuffer(gl_, "shading from the D-buffer");
-  const float nowhere[4] = {2.0f, 2.0f, 0.0f, 0.0f};
-  if (with.checked) gl_.ClearBufferfv(GL_COLOR, 1, nowhere);
-  gl_.DrawBuffers(with.known ? 0 : 1, colors);
   gl_.DepthFunc(GL_ALWAYS);
   shade_pixels(with.select, view, layers, records);
-  gl_.DrawBuffers(with.checked ? 2 : 1, colors);
+  gl_.DrawBuffers(1, &color);
   gl_.DepthFunc(GL_LESS);  // tiles lie at depth 0.5
   shade_pixels(with.visibility, view, layers, records);
   gl_.Finish();
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_.ReadBuffer(color);
   gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, out.data());
-  if (with.checked) check(light, out);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[1], GL_TEXTURE_2D, 0, 0);
-  gl_.DrawBuffers(1, colors);
+  sampled_ = 0;
+  if (checks(options)) check(light, out);
   return out;
 }
 

@@ -43,6 +43,8 @@ class DBufferShading {
   std::vector<float> shade(const DiskLight& light, const DBufferView& view, const ReceiverGrid& grid,
                            const EntryGeometry& geometry, const DBufferLayers& layers, GLuint records,
                            const DBufferOptions& options);
+  /// Pixels of the last image whose visibility was asked of rays, since entries contradicted each other.
+  std::size_t sampled() const { return sampled_; }
 
  private:
   struct Programs;
@@ -59,12 +61,12 @@ class DBufferShading {
 
   const gl::Functions& gl_;
   int width_ = 0, height_ = 0;
+  std::size_t sampled_ = 0;
   std::unique_ptr<gl::Object> surface_position_, surface_normal_, first_cut_, visibility_texture_,
-      mark_texture_, aim_texture_;
+      mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
   std::vector<float> cuts_, without_entries_;
-  std::vector<glm::vec2> aims_;
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
   std::vector<std::unique_ptr<Programs>> programs_;  ///< made when needed
