@@ -97,10 +97,11 @@ void DBufferShading::trace_center(const DiskLight& light) {
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RED, GL_FLOAT, texels.data());
   };
   upload(*first_cut_, cuts_);
-  without_entries_ = center_rays_->above_horizon(light);
+  open_ = center_rays_->above_horizon(light);
+  std::vector<float> without_entries = open_;
   for (std::size_t i = 0; i < cuts_.size(); ++i)
-    if (cuts_[i] < 1.0f) without_entries_[i] = 0.0f;
-  upload(*visibility_texture_, without_entries_);
+    if (cuts_[i] < 1.0f) without_entries[i] = 0.0f;
+  upload(*visibility_texture_, without_entries);
 }
 
 ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
@@ -205,7 +206,7 @@ void DBufferShading::check(const DiskLight& light, std::vector<float>& visibilit
   const auto ask = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
   };
-  sampled_ = ask_beside_steps({width_, height_, positions_, normals_}, ask, visibility);
+  sampled_ = ask_beside_steps({width_, height_, positions_, normals_, open_}, ask, visibility);
 }
 
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the

@@ -66,7 +66,7 @@ class DBufferShading {
       mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
-  std::vector<float> cuts_, without_entries_;
+  std::vector<float> cuts_, open_;
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
   std::vector<std::unique_ptr<Programs>> programs_;  ///< made when needed

@@ -18,7 +18,11 @@ constexpr float kApart = 0.5f;   // height above the neighbour's plane over the 
 class Steps {
  public:
   Steps(const ImageSurface& image, std::vector<float>& visibility)
-      : image_(image), visibility_(visibility), known_(visibility.size(), 0) {}
+      : image_(image), visibility_(visibility), share_(visibility.size()), known_(visibility.size(), 0) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, share_.size(), 8192), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) share_[i] = share_of(i);
+    });
+  }
 
   /// Pixels on either side of a step, in the image's order.
   std::vector<std::uint32_t> find() {
@@ -44,6 +48,7 @@ class Steps {
       float& visibility = visibility_[pixels[k]];
       if (!(std::abs(visibility - said[k]) > kVisibilityStep)) continue;
       visibility = said[k];
+      share_[pixels[k]] = share_of(pixels[k]);
       changed.push_back(pixels[k]);
     }
     for (const std::uint32_t i : changed) {
@@ -57,6 +62,11 @@ class Steps {
   }
 
  private:
+  /// Of what is above the horizon; a sliver of the disk counts as seen.
+  float share_of(std::size_t i) const {
+    return image_.open[i] > 0.05f ? visibility_[i] / image_.open[i] : 1.0f;
+  }
+
   template <class F>
   void for_neighbours(std::uint32_t i, const F& visit) const {
     const auto width = static_cast<std::uint32_t>(image_.width);
@@ -83,10 +93,9 @@ class Steps {
   }
 
   bool is_step(std::uint32_t i, std::uint32_t j) const {
-    const float step = visibility_[j] - visibility_[i];
+    const float step = share_[j] - share_[i];
     if (!(std::abs(step) > kVisibilityStep)) return false;
-    const float before = visibility_[i] - visibility_[beyond(j, i)],
-                after = visibility_[beyond(i, j)] - visibility_[j];
+    const float before = share_[i] - share_[beyond(j, i)], after = share_[beyond(i, j)] - share_[j];
     if (!(std::abs(step - before) > kVisibilityStep && std::abs(step - after) > kVisibilityStep))
       return false;
     if (image_.positions[i].w == 0.0f || image_.positions[j].w == 0.0f) return false;
@@ -97,6 +106,7 @@ class Steps {
 
   const ImageSurface& image_;
   std::vector<float>& visibility_;
+  std::vector<float> share_;
   std::vector<char> known_;  ///< asked or about to be
 };
 

@@ -14,10 +14,12 @@
 
 namespace penumbra::detail {
 
-/// An image's surface; the fourth number of a position is 0 where nothing is seen.
+/// An image's surface; the fourth number of a position is 0 where nothing is seen. `open` is the visibility
+/// that the horizon alone leaves: only what casters do to it is compared, since it jumps where normals do.
 struct ImageSurface {
   int width, height;
   std::span<const glm::vec4> positions, normals;
+  std::span<const float> open;
 };
 
 /// Visibility of the given pixels, in their order.

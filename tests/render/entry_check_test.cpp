@@ -44,10 +44,12 @@ struct Plane {
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) positions.emplace_back(x, y, 0.0f, 1.0f);
     normals.assign(positions.size(), glm::vec4(0.0f, 0.0f, 1.0f, 0.0f));
+    open.assign(positions.size(), 1.0f);
   }
-  detail::ImageSurface image() const { return {width, height, positions, normals}; }
+  detail::ImageSurface image() const { return {width, height, positions, normals, open}; }
   int width, height;
   std::vector<glm::vec4> positions, normals;
+  Values open;
 };
 
 /// Answers with what is true and remembers who was asked.
@@ -96,6 +98,15 @@ TEST(EntryCheck, SlopesAndEdgesOfSurfacesAreNoSteps) {
   v = edge;
   EXPECT_EQ(detail::ask_beside_steps(plane.image(), oracle.ask(), v), 0u);
   EXPECT_EQ(v, edge);
+}
+
+TEST(EntryCheck, AStepOfTheHorizonAloneIsNone) {
+  Plane plane(24, 20);
+  Oracle oracle{Values(24 * 20, 0.0f)};
+  for (std::size_t i = 0; i < plane.open.size(); ++i) plane.open[i] = i % 24 < 12 ? 0.4f : 1.0f;
+  Values v = plane.open;
+  EXPECT_EQ(detail::ask_beside_steps(plane.image(), oracle.ask(), v), 0u);
+  EXPECT_EQ(v, plane.open);
 }
 
 TEST(EntryCheck, AnswersThatAgreeChangeNothing) {
