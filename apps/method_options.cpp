@@ -41,8 +41,10 @@ void add_reference_options(CLI::App& command, ReferenceOptions& options) {
 
 void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
   const char* group = "Method dbuffer: what the light's center sees of the penumbra (OpenGL)";
-  command.add_option("--dbuffer-size", options.size, "Texels a side of the D-buffer")
-      ->check(CLI::Range(16, 8'192))
+  command
+      .add_option("--dbuffer-size", options.size,
+                  "Texels a side of the D-buffer, 16 to 8192; 0: the root of the image's pixels")
+      ->check(CLI::Range(16, 8'192) | CLI::IsMember({0}))
       ->capture_default_str()
       ->group(group);
   add_choice(command, "--dbuffer", options.contents, d_buffer_contents(),
@@ -65,7 +67,7 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
              "How it is told whether the light's center is hidden: by a ray, or by the texel's first surface")
       ->group(group);
   add_choice(command, "--dbuffer-check", options.check, entry_checks(),
-             "Whether a few rays a pixel may drop wrong entries (edge, exact and one entry only)")
+             "Whether rays are asked where entries contradict each other (with edge and exact)")
       ->group(group);
 }
 

@@ -9,21 +9,25 @@
 #include <glm/geometric.hpp>
 
 #include "render/disk_area.h"
+#include "render/disk_samples.h"
 #include "render/ray_scene_impl.h"
 #include "render/vector_clones.h"
 
 namespace penumbra {
+
+/// Sixteen receivers, local frame.
+struct detail::ReceiverLanes {
+  const float *x, *y, *z, *nx, *ny, *nz;
+};
+
 namespace {
+
+using detail::ReceiverLanes;
 
 constexpr std::size_t kLanes = 16;
 constexpr int kBlock = 4;  // pixels a side that share a packet
 /// What a cut reads as that only the ray towards the light finds: the two directions round differently.
 constexpr float kAlmostThere = 1.0f - 0x1p-20f;
-
-/// Sixteen receivers, local frame.
-struct Receivers {
-  const float *x, *y, *z, *nx, *ny, *nz;
-};
 
 struct LocalDisk {
   float x, y, z;     ///< center
@@ -31,9 +35,14 @@ struct LocalDisk {
   float radius;
 };
 
+LocalDisk local_disk(const DiskLight& light, const RayFrame& frame) {
+  const glm::vec3 center(frame.to_local(light.center)), m(light_frame(light).w);
+  return {center.x, center.y, center.z, m.x, m.y, m.z, static_cast<float>(light.radius * frame.scale)};
+}
+
 /// Directions to the points aimed at; 0 in `wanted` where no ray is needed.
 PENUMBRA_VECTOR_CLONES
-void aim(const Receivers& from, const LocalDisk& disk, RTCRay16& packet, int* wanted) {
+void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int* wanted) {
   for (std::size_t k = 0; k < kLanes; ++k) {
     const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
     const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
@@ -53,6 +62,31 @@ void aim(const Receivers& from, const LocalDisk& disk, RTCRay16& packet, int* wa
   }
 }
 
+/// The chord that a receiver's horizon cuts off the disk, as its signed distance from the center in radii: 1
+/// and more where all of the disk is above, -1 behind the light. Heights are of the surface, not of the ray's
+/// origin.
+PENUMBRA_INLINE float horizon_chord(const ReceiverLanes& from, std::size_t k, const LocalDisk& disk) {
+  const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
+  const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
+  const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
+  const float ux = nx - along * disk.mx, uy = ny - along * disk.my, uz = nz - along * disk.mz;
+  const float reach = disk.radius * std::sqrt(ux * ux + uy * uy + uz * uz);
+  const float height = nx * x + ny * y + nz * z + static_cast<float>(kRayOffset);
+  const float behind = x * disk.mx + y * disk.my + z * disk.mz;
+  const float inside = height / std::max(reach, 1e-30f);
+  return behind >= 0.0f ? -1.0f : height >= reach ? 1.0f : inside;
+}
+
+PENUMBRA_VECTOR_CLONES
+void horizon_chords(const ReceiverLanes& from, const LocalDisk& disk, float* delta) {
+  for (std::size_t k = 0; k < kLanes; ++k) delta[k] = horizon_chord(from, k, disk);
+}
+
+/// What lies beyond a chord.
+float open_fraction(float delta) {
+  return delta >= 1.0f ? 1.0f : delta > -1.0f ? static_cast<float>(half_plane_area(delta)) : 0.0f;
+}
+
 /// Sixteen rays, first from receivers to see whether anything is in the way, then back for what the light
 /// meets first.
 struct Packet {
@@ -67,7 +101,7 @@ struct Packet {
 
   /// Leaves in `wanted` the lanes that are cut, and where in the ray's tfar: 0 at the light, 1 at the
   /// receiver.
-  void find_first_cuts(const Receivers& from, RTCScene casters) {
+  void find_first_cuts(const ReceiverLanes& from, RTCScene casters) {
     RTCRay16& ray = hits.ray;
     for (std::size_t k = 0; k < kLanes; ++k) {
       ray.org_x[k] = from.x[k], ray.org_y[k] = from.y[k], ray.org_z[k] = from.z[k];
@@ -90,7 +124,7 @@ struct Packet {
 }  // namespace
 
 CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
-    : rays_(rays), pixels_(surface.size()) {
+    : rays_(rays), pixels_(surface.size()), place_(surface.size(), 0) {
   const auto count = static_cast<std::size_t>(
       std::count_if(surface.object.begin(), surface.object.end(), [](int object) { return object >= 0; }));
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
@@ -101,6 +135,7 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
     const Vec3& n = surface.normal[i];
     const glm::vec3 p(rays.frame().to_local(surface.position[i]) + kRayOffset * n);
     const std::size_t k = pixel_.size();
+    place_[i] = static_cast<std::uint32_t>(k);
     x_[k] = p.x, y_[k] = p.y, z_[k] = p.z;
     nx_[k] = static_cast<float>(n.x), ny_[k] = static_cast<float>(n.y), nz_[k] = static_cast<float>(n.z);
     pixel_.push_back(i);
@@ -112,44 +147,34 @@ CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
           add(static_cast<std::uint32_t>(y * surface.width + x));
 }
 
+detail::ReceiverLanes CenterRays::lanes(std::size_t first) const {
+  return {&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
+}
+
 std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
   std::vector<float> out(pixels_, 1.0f);
-  const RayFrame& frame = rays_.frame();
-  const glm::vec3 center(frame.to_local(light.center)), m(light_frame(light).w);
-  const auto radius = static_cast<float>(light.radius * frame.scale);
-  rays_.impl().arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixel_.size(), 4096), [&](const auto& range) {
-      for (std::size_t k = range.begin(); k < range.end(); ++k) {
-        const glm::vec3 d = center - glm::vec3(x_[k], y_[k], z_[k]), n(nx_[k], ny_[k], nz_[k]);
-        const float height =
-            glm::dot(n, d) + static_cast<float>(kRayOffset);  // of the surface, not of the ray's origin
-        const float reach = radius * glm::length(n - glm::dot(n, m) * m);
-        const bool lit = glm::dot(d, m) < 0.0f && height > -reach;
-        out[pixel_[k]] = !lit              ? 0.0f
-                         : height >= reach ? 1.0f
-                                           : static_cast<float>(half_plane_area(height / reach));
-      }
-    });
-  });
+  const LocalDisk disk = local_disk(light, rays_.frame());
+  const auto look = [&](const tbb::blocked_range<std::size_t>& packets) {
+    float delta[kLanes];
+    for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
+      const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
+      horizon_chords(lanes(first), disk, delta);
+      for (std::size_t k = 0; k < count; ++k) out[pixel_[first + k]] = open_fraction(delta[k]);
+    }
+  };
+  rays_.impl().arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 256), look); });
   return out;
 }
 
 std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
   std::vector<float> out(pixels_, 1.0f);
-  const RayFrame& frame = rays_.frame();
-  const glm::vec3 center(frame.to_local(light.center)), normal(light_frame(light).w);
-  const LocalDisk disk{center.x,
-                       center.y,
-                       center.z,
-                       normal.x,
-                       normal.y,
-                       normal.z,
-                       static_cast<float>(light.radius * frame.scale)};
+  const LocalDisk disk = local_disk(light, rays_.frame());
   const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
     Packet packet;
     for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
       const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
-      const Receivers from{&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
+      const ReceiverLanes from = lanes(first);
       aim(from, disk, packet.hits.ray, packet.wanted);
       for (std::size_t k = count; k < kLanes; ++k) packet.wanted[k] = 0;
       packet.find_first_cuts(from, rays_.impl().casters);
@@ -164,70 +189,51 @@ std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
 
 namespace {
 
-/// Points of the disk that are asked in turn, in radii: three across what lies beyond a chord whose middle is
-/// `aim`, and three round the rest.
-std::array<glm::vec2, 6> places_to_ask(const glm::vec2& aim) {
-  const float size = glm::length(aim);
-  const glm::vec2 to = aim / std::max(size, 1e-6f), across(-to.y, to.x);
-  const float half = 0.6f * std::sqrt(std::max(0.0f, 1.0f - size * size)), rest = 0.75f;
-  return {aim, aim + half * across, aim - half * across, -rest * to, rest * across, -rest * across};
+/// The middles of four by four strata, mapped to the disk.
+std::array<detail::DiskPoint, kLanes> middles_of_strata() {
+  std::array<detail::DiskPoint, kLanes> out;
+  for (std::size_t k = 0; k < kLanes; ++k)
+    out[k] = detail::concentric_disk((static_cast<float>(k % 4) + 0.5f) / 4.0f,
+                                     (static_cast<float>(k / 4) + 0.5f) / 4.0f);
+  return out;
 }
 
 }  // namespace
 
-std::vector<char> CenterRays::refuted(const DiskLight& light, std::span<const glm::vec2> aims,
-                                      std::span<const float> cuts) const {
-  std::vector<char> out(pixels_, 0);
-  const RayFrame& frame = rays_.frame();
+std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
+                                                  std::span<const std::uint32_t> pixels) const {
   const LightFrame axes = light_frame(light);
-  const double radius = light.radius * frame.scale;
-  const glm::vec3 center(frame.to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
-  const auto ask = [&](std::span<const std::uint32_t> lanes) {
-    std::array<glm::vec2, 6> places[kLanes];
-    alignas(64) int open[kLanes] = {};  // -1: nothing speaks for the entry yet
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-      places[lane] = places_to_ask(aims[pixel_[lanes[lane]]]);
-      open[lane] = -1;
+  const double radius = light.radius * rays_.frame().scale;
+  const glm::vec3 center(rays_.frame().to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
+  const LocalDisk disk = local_disk(light, rays_.frame());
+  const auto points = middles_of_strata();
+  const auto look = [&](std::uint32_t pixel) {
+    const std::uint32_t at = place_[pixel];
+    const glm::vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
+    const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
+    if (!(open > 0.0f)) return 0.0f;
+    alignas(64) RTCRay16 ray{};
+    alignas(64) int above[kLanes];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const glm::vec3 way = center + points[k].x * u + points[k].y * v - from;
+      ray.org_x[k] = from.x, ray.org_y[k] = from.y, ray.org_z[k] = from.z;
+      ray.dir_x[k] = way.x, ray.dir_y[k] = way.y, ray.dir_z[k] = way.z;
+      ray.tfar[k] = 1.0f, ray.mask[k] = ~0u;
+      above[k] = glm::dot(way, n) > 0.0f ? -1 : 0;
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    for (std::size_t turn = 0; turn < places[0].size(); ++turn) {
-      alignas(64) RTCRay16 ray{};
-      alignas(64) int wanted[kLanes] = {};
-      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-        const std::uint32_t k = lanes[lane];
-        const glm::vec2 at = places[lane][turn];
-        const glm::vec3 from(x_[k], y_[k], z_[k]), way = center + at.x * u + at.y * v - from;
-        ray.org_x[lane] = from.x, ray.org_y[lane] = from.y, ray.org_z[lane] = from.z;
-        ray.dir_x[lane] = way.x, ray.dir_y[lane] = way.y, ray.dir_z[lane] = way.z;
-        ray.tfar[lane] = 1.0f, ray.mask[lane] = ~0u;
-        // What is below the horizon says nothing.
-        const bool above = way.x * nx_[k] + way.y * ny_[k] + way.z * nz_[k] > 0.0f;
-        wanted[lane] = open[lane] && above ? -1 : 0;
-      }
-      rtcOccluded16(wanted, rays_.impl().casters, &context, &ray);
-      bool any = false;
-      for (std::size_t lane = 0; lane < lanes.size(); ++lane) {
-        const bool blocked = ray.tfar[lane] < 0.0f, hidden = cuts[pixel_[lanes[lane]]] < 1.0f;
-        if (wanted[lane] && blocked != hidden) open[lane] = 0;
-        any = any || open[lane];
-      }
-      if (!any) break;
-    }
-    for (std::size_t lane = 0; lane < lanes.size(); ++lane) out[pixel_[lanes[lane]]] = open[lane] != 0;
+    rtcOccluded16(above, rays_.impl().casters, &context, &ray);
+    int asked = 0, seen = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) asked += above[k] != 0, seen += above[k] && ray.tfar[k] >= 0.0f;
+    return asked > 0 ? open * static_cast<float>(seen) / static_cast<float>(asked) : open;
   };
-  const auto ask_in = [&](const tbb::blocked_range<std::size_t>& places) {
-    std::array<std::uint32_t, kLanes> lanes;  // places in pixel_
-    std::size_t count = 0;
-    for (std::size_t k = places.begin(); k < places.end(); ++k) {
-      if (glm::length(aims[pixel_[k]]) > 1.0f) continue;
-      lanes[count++] = static_cast<std::uint32_t>(k);
-      if (count == kLanes) ask(std::span(lanes)), count = 0;
-    }
-    if (count > 0) ask(std::span(lanes).first(count));
-  };
-  rays_.impl().arena.execute(
-      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixel_.size(), 4096), ask_in); });
+  std::vector<float> out(pixels.size());
+  rays_.impl().arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 64), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) out[i] = look(pixels[i]);
+    });
+  });
   return out;
 }
 

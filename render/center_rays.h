@@ -1,5 +1,5 @@
-// Where the segment from the light's center to each receiver is cut first, by rays, and what a few more rays
-// say of a penumbra.
+// Where the segment from the light's center to each receiver is cut first, by rays, and what a few more say
+// of a penumbra.
 //
 // In: surface points (once), a light. Out: a number a pixel, the 2004 paper's |cxo| over |cx|. The shadow's
 // whole topology hangs on whether there is such a cut (see d_buffer.h), and a ray decides it for the receiver
@@ -15,6 +15,9 @@
 #include "render/surface_buffer.h"
 
 namespace penumbra {
+namespace detail {
+struct ReceiverLanes;
+}
 
 class CenterRays {
  public:
@@ -26,21 +29,22 @@ class CenterRays {
   /// such that see nothing of it count as open. Cost: one ray a pixel and another where that is cut, on all
   /// cores.
   std::vector<float> first_cut(const DiskLight& light) const;
-  /// One per pixel, 1 where a few rays all speak against the receiver lying in a penumbra: all are cut where
-  /// the way to the center is (`cuts`), none where it is open. `aims` holds one point of the disk a pixel, in
-  /// the light's frame and in radii: the middle of the part that is thought to differ from the center; none
-  /// outside of the disk is asked about. Cost: up to six rays where something is asked, mostly one, on all
-  /// cores.
-  std::vector<char> refuted(const DiskLight& light, std::span<const glm::vec2> aims,
-                            std::span<const float> cuts) const;
+  /// Visibility of each of the given pixels: the disk's fraction above the horizon, times the share that is
+  /// seen of sixteen points of equal shares of the disk (of those above). The points are the same for all
+  /// pixels; where one edge crosses the disk they err by .035 (root mean square over all chords), at worst by
+  /// .12. Cost: sixteen rays a pixel, on all cores.
+  std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
   /// One per pixel: the disk's area fraction above the receiver's horizon, 0 behind the light, 1 where
   /// nothing is seen.
   std::vector<float> above_horizon(const DiskLight& light) const;
 
  private:
+  detail::ReceiverLanes lanes(std::size_t first) const;
+
   const RayScene& rays_;
   std::size_t pixels_;                ///< of the surface buffer
   std::vector<std::uint32_t> pixel_;  ///< that see a surface, in blocks
+  std::vector<std::uint32_t> place_;  ///< of each pixel in pixel_
   std::vector<float> x_, y_, z_, nx_, ny_,
       nz_;  ///< ray origins and normals, local frame, padded to whole packets
 };

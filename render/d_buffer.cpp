@@ -18,6 +18,9 @@ namespace {
 
 using gl::Object;
 
+/// Facets up to this part of the target's width are narrow.
+constexpr double kNarrow = 1.0 / 32.0;
+
 struct Caster {
   const TriangleMesh* mesh;
   VertexRings rings;
@@ -179,8 +182,8 @@ void DBuffer::Impl::choose_view(const DBufferOptions& options, Plan& plan) const
   if (plan.targets.empty()) return;
   const bool hemicube = plan.targets.size() > 1;
   const auto& w = plan.targets[0].window;
-  const double texel = std::max(w[1] - w[0], w[3] - w[2]) / options.size;
-  plan.footprint = {detail::kNearDepth, far, texel, hemicube};
+  const double width = std::max(w[1] - w[0], w[3] - w[2]);
+  plan.footprint = {detail::kNearDepth, far, width / options.size, hemicube, width * kNarrow};
   if (!hemicube && options.center == CenterTest::kRay && options.conflict == Conflict::kNearest)
     plan.receivers = shading.receiver_grid(plan.view(), options.size);
 }
@@ -286,9 +289,12 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   report(progress, 0.2);
   draw(plan, options, clock);
   report(progress, 0.6);
-  frame.visibility = shading.shade(light, plan.view(), plan.geometry, *layers, passes.records(), options);
+  frame.visibility =
+      shading.shade(light, plan.view(), plan.receivers, plan.geometry, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
+  frame.counts["sampled_pixels"] = shading.sampled();
+  frame.counts["buffer_size"] = options.size;
   frame.counts["buffer_bytes"] = layers->bytes();
   frame.stages = clock.stages();
   return frame;
@@ -348,10 +354,18 @@ void DBuffer::set_surface(const SurfaceBuffer& surface) {
   impl_->set_surface(surface);
 }
 
-DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& options,
-                             const Progress& progress) {
+int d_buffer_size_for(int width, int height) {
+  constexpr double kStep = 64.0;
+  const double side = std::sqrt(static_cast<double>(width) * height);
+  return static_cast<int>(std::clamp(std::ceil(side / kStep) * kStep, 512.0, 4096.0));
+}
+
+DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& wanted, const Progress& progress) {
+  DBufferOptions options = wanted;
+  if (options.size == 0) options.size = impl_->shading.automatic_size();
   if (options.size < 16 || options.size > 8192)
-    throw UsageError("D-buffer size must lie in 16 to 8192 texels, not " + std::to_string(options.size));
+    throw UsageError("D-buffer size must lie in 16 to 8192 texels (0: by the image's), not " +
+                     std::to_string(options.size));
   if (options.entries < 1 || options.entries > 2)
     throw UsageError("D-buffer entries must be 1 or 2, not " + std::to_string(options.entries));
   if (options.entries == 2 &&

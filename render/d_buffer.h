@@ -40,8 +40,10 @@ enum class CenterTest {
            ///< plane
 };
 enum class EntryCheck {
-  kRays,  ///< up to six rays a pixel where an entry applies, mostly one: if all say what the center says, the
-          ///< entry is dropped. Against leaks and penumbrae of edges that something else hides.
+  kRays,  ///< sixteen rays a pixel where neighbours on one surface contradict each other (a step of more than
+          ///< a tenth that no slope explains); they replace what entries say by more than a tenth otherwise.
+          ///< Against leaks, penumbrae of edges that something else hides, and seams between a texel's
+          ///< entries.
   kNone,
 };
 enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps
@@ -54,15 +56,19 @@ std::span<const NamedValue<CenterTest>> center_tests();
 std::span<const NamedValue<EntryCheck>> entry_checks();
 
 struct DBufferOptions {
-  int size = 1024;  ///< texels a side of each target, 16 to 8192
+  int size = 0;  ///< texels a side of each target, 16 to 8192; 0: d_buffer_size_for the image
   DBufferContents contents = DBufferContents::kEdge;
   int entries = 1;  ///< entries kept per texel and kind of boundary, 1 or 2 (2: kEdge and kNearest only)
   VisibilityCurve curve = VisibilityCurve::kExact;
   Conflict conflict = Conflict::kNearest;
   CenterTest center = CenterTest::kRay;  ///< how it is told whether the light's center is hidden
   EntryCheck check =
-      EntryCheck::kRays;  ///< what drops wrong entries; needs kEdge, one entry, kExact and kRay
+      EntryCheck::kRays;  ///< what is done about entries that contradict each other; with kEdge, kExact, kRay
 };
+
+/// Texels a side that are about as many as the image's pixels: the root of their number, up to the next
+/// multiple of 64, 512 to 4096. More shows in few scenes (README), and rasterisation grows with the area.
+int d_buffer_size_for(int width, int height);
 
 struct DBufferFrame {
   std::vector<float> visibility;  ///< one per pixel of the surface buffer; 1 where nothing is seen
@@ -81,7 +87,8 @@ class DBuffer {
   /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.
   /// Throws UsageError for a size or entries outside their range and before set_surface, SystemError where
   /// OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), and one or two rays a pixel with
-  /// CenterTest::kRay, and up to six, mostly one, where entries apply with EntryCheck::kRays.
+  /// CenterTest::kRay, and up to six, mostly one, where entries apply with EntryCheck::kRays, and sixteen
+  /// where entries contradict each other.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
   /// What the last frame left in the textures of the first target, by number, one grey a number: the first
   /// surface, penumbra entries, umbra entries before and behind the last surface; none that are empty.

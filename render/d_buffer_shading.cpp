@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/d_buffer_passes.h"
+#include "render/visibility_steps.h"
 
 namespace penumbra::detail {
 namespace {
@@ -19,10 +20,16 @@ std::unique_ptr<Object> image_texture(const gl::Functions& gl, GLenum format, in
   return texture;
 }
 
-/// Whether rays are asked about entries: only an edge says which part of the disk is lit.
+/// Whether rays are asked where entries contradict each other: the paper's own method knows no rays.
 bool checks(const DBufferOptions& o) {
-  return o.check == EntryCheck::kRays && o.contents == DBufferContents::kEdge && o.entries == 1 &&
+  return o.check == EntryCheck::kRays && o.contents == DBufferContents::kEdge &&
          o.curve == VisibilityCurve::kExact && o.center == CenterTest::kRay;
+}
+
+/// Whether the visibility without entries is in the image before the passes begin, at every pixel that no
+/// entry touches.
+bool is_known(const DBufferOptions& o, int targets) {
+  return o.center == CenterTest::kRay && targets <= 1;
 }
 
 }  // namespace
@@ -34,25 +41,25 @@ struct DBufferShading::Programs {
         curve(options.curve),
         entries(options.entries),
         target_count(targets),
-        checked(checks(options)),
+        known(is_known(options, targets)),
         center(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_center.frag.glsl"}}, {{"TARGETS", targets}}),
-        select(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}}, {{"TARGETS", targets}}),
+        select(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}},
+               {{"TARGETS", targets}, {"KNOWN", known}}),
         visibility(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}},
                    {{"TARGETS", targets},
                     {"CONTENTS", static_cast<int>(contents)},
                     {"CURVE", static_cast<int>(curve)},
-                    {"ENTRIES", entries},
-                    {"CHECK", checked}}) {}
+                    {"ENTRIES", entries}}) {}
   bool fits(const DBufferOptions& options, int targets) const {
     return contents == options.contents && curve == options.curve && entries == options.entries &&
-           checked == checks(options) && target_count == targets;
+           known == is_known(options, targets) && target_count == targets;
   }
 
   static constexpr Program::Stage kTiles{GL_VERTEX_SHADER, "image_tiles.vert.glsl"};
   DBufferContents contents;
   VisibilityCurve curve;
   int entries, target_count;
-  bool checked;
+  bool known;
   Program center, select, visibility;
 };
 
@@ -78,7 +85,6 @@ void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::
   surface_normal_ = upload(normals_);
   visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
-  aim_texture_ = image_texture(gl_, GL_RG32F, width_, height_);
   first_cut_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
   cuts_.clear();
@@ -91,10 +97,11 @@ void DBufferShading::trace_center(const DiskLight& light) {
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RED, GL_FLOAT, texels.data());
   };
   upload(*first_cut_, cuts_);
-  without_entries_ = center_rays_->above_horizon(light);
+  open_ = center_rays_->above_horizon(light);
+  std::vector<float> without_entries = open_;
   for (std::size_t i = 0; i < cuts_.size(); ++i)
-    if (cuts_[i] < 1.0f) without_entries_[i] = 0.0f;
-  upload(*visibility_texture_, without_entries_);
+    if (cuts_[i] < 1.0f) without_entries[i] = 0.0f;
+  upload(*visibility_texture_, without_entries);
 }
 
 ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
@@ -168,14 +175,13 @@ void DBufferShading::shade_pixels(const Program& program, const DBufferView& vie
 
 /// The parts of the image that the passes visit, at depth 0.5: all, where the visibility without entries is
 /// not known yet.
-void DBufferShading::choose_tiles(const DBufferView& view, const EntryGeometry& geometry,
-                                  const DBufferOptions& options) {
-  const bool known = options.center == CenterTest::kRay && view.targets.size() <= 1;
+void DBufferShading::choose_tiles(const DBufferView& view, const ReceiverGrid& grid,
+                                  const EntryGeometry& geometry, const DBufferOptions& options) {
   std::vector<glm::vec2> tiles;
-  if (!known)
+  if (!is_known(options, static_cast<int>(view.targets.size())) || grid.is_everywhere())
     tiles = whole_image();
   else if (!view.targets.empty())
-    tiles = tiles_with_entries(receivers(view), geometry, view.targets[0]);
+    tiles = tiles_with_entries(receivers(view), grid, geometry, view.targets[0]);
   tile_vertices_ = static_cast<GLsizei>(tiles.size());
   gl_.BindVertexArray(tile_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_);
@@ -195,47 +201,40 @@ void DBufferShading::test_center_by_depth(const Programs& programs, const DBuffe
   gl_.Finish();
 }
 
-/// Drops the entries that rays refute.
+/// Asks rays where entries contradict each other.
 void DBufferShading::check(const DiskLight& light, std::vector<float>& visibility) {
-  aims_.resize(visibility.size());
-  gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RG, GL_FLOAT, aims_.data());
-  const std::vector<char> refuted = center_rays_->refuted(light, aims_, cuts_);
-  for (std::size_t i = 0; i < visibility.size(); ++i)
-    if (refuted[i]) visibility[i] = without_entries_[i];
+  const auto ask = [&](std::span<const std::uint32_t> pixels) {
+    return center_rays_->sampled_visibility(light, pixels);
+  };
+  sampled_ = ask_beside_steps({width_, height_, positions_, normals_, open_}, ask, visibility);
 }
 
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
 /// second.
 std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferView& view,
-                                         const EntryGeometry& geometry, const DBufferLayers& layers,
-                                         GLuint records, const DBufferOptions& options) {
+                                         const ReceiverGrid& grid, const EntryGeometry& geometry,
+                                         const DBufferLayers& layers, GLuint records,
+                                         const DBufferOptions& options) {
   Programs& with = programs(view, options);
-  choose_tiles(view, geometry, options);
+  choose_tiles(view, grid, geometry, options);
   gl_.Viewport(0, 0, width_, height_);
   if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, records);
-  const GLenum colors[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[0], GL_TEXTURE_2D, *visibility_texture_, 0);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[1], GL_TEXTURE_2D, with.checked ? GLuint(*aim_texture_) : 0,
-                           0);
+  const GLenum color = GL_COLOR_ATTACHMENT0;
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, color, GL_TEXTURE_2D, *visibility_texture_, 0);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *mark_texture_, 0);
-  gl_.DrawBuffers(with.checked ? 2 : 1, colors);
+  gl_.DrawBuffers(with.known ? 0 : 1, &color);
   gl::require_complete_framebuffer(gl_, "shading from the D-buffer");
-  const float nowhere[4] = {2.0f, 2.0f, 0.0f, 0.0f};
-  if (with.checked) gl_.ClearBufferfv(GL_COLOR, 1, nowhere);
-  gl_.DrawBuffers(1, colors);
   gl_.DepthFunc(GL_ALWAYS);
   shade_pixels(with.select, view, layers, records);
-  gl_.DrawBuffers(with.checked ? 2 : 1, colors);
+  gl_.DrawBuffers(1, &color);
   gl_.DepthFunc(GL_LESS);  // tiles lie at depth 0.5
   shade_pixels(with.visibility, view, layers, records);
   gl_.Finish();
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  gl_.ReadBuffer(GL_COLOR_ATTACHMENT0);
+  gl_.ReadBuffer(color);
   gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, out.data());
-  if (with.checked) check(light, out);
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, colors[1], GL_TEXTURE_2D, 0, 0);
-  gl_.DrawBuffers(1, colors);
+  sampled_ = 0;
+  if (checks(options)) check(light, out);
   return out;
 }
 

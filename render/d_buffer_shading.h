@@ -30,22 +30,28 @@ class DBufferShading {
   /// number over all objects, 0 where nothing is seen. Uploads them. `rays` must outlive this.
   void set_surface(const SurfaceBuffer& surface, std::vector<glm::vec4> positions, const RayScene& rays);
   bool has_surface() const { return width_ > 0; }
+  int automatic_size() const { return d_buffer_size_for(width_, height_); }
 
   /// One ray a pixel to the light's center; `cuts` and the visibility where no entry applies come of it.
   void trace_center(const DiskLight& light);
   /// Who will read the only target, after trace_center.
   ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
 
-  /// Visibility of every pixel. The framebuffer that is bound is used and its attachments are replaced.
-  /// `records` is the buffer texture of facets.
-  std::vector<float> shade(const DiskLight& light, const DBufferView& view, const EntryGeometry& geometry,
-                           const DBufferLayers& layers, GLuint records, const DBufferOptions& options);
+  /// Visibility of every pixel. `grid` says who reads what, as from receiver_grid, or is everywhere. The
+  /// framebuffer that is bound is used and its attachments are replaced. `records` is the buffer texture of
+  /// facets.
+  std::vector<float> shade(const DiskLight& light, const DBufferView& view, const ReceiverGrid& grid,
+                           const EntryGeometry& geometry, const DBufferLayers& layers, GLuint records,
+                           const DBufferOptions& options);
+  /// Pixels of the last image whose visibility was asked of rays, since entries contradicted each other.
+  std::size_t sampled() const { return sampled_; }
 
  private:
   struct Programs;
   ImageReceivers receivers(const DBufferView& view) const;
   Programs& programs(const DBufferView& view, const DBufferOptions& options);
-  void choose_tiles(const DBufferView& view, const EntryGeometry& geometry, const DBufferOptions& options);
+  void choose_tiles(const DBufferView& view, const ReceiverGrid& grid, const EntryGeometry& geometry,
+                    const DBufferOptions& options);
   void test_center_by_depth(const Programs& programs, const DBufferView& view, const DBufferLayers& layers,
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
@@ -55,12 +61,12 @@ class DBufferShading {
 
   const gl::Functions& gl_;
   int width_ = 0, height_ = 0;
+  std::size_t sampled_ = 0;
   std::unique_ptr<gl::Object> surface_position_, surface_normal_, first_cut_, visibility_texture_,
-      mark_texture_, aim_texture_;
+      mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
-  std::vector<float> cuts_, without_entries_;
-  std::vector<glm::vec2> aims_;
+  std::vector<float> cuts_, open_;
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
   std::vector<std::unique_ptr<Programs>> programs_;  ///< made when needed

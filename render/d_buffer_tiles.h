@@ -9,11 +9,11 @@
 
 namespace penumbra::detail {
 
-/// Rectangles of the image in clip coordinates, two triangles each. They cover every receiver whose texel an
-/// entry's triangle may touch: by the triangles' bounds on a coarse grid over the target's window. Cost
-/// O(pixels + triangles), on all cores.
-std::vector<glm::vec2> tiles_with_entries(const ImageReceivers& image, const EntryGeometry& entries,
-                                          const Target& target);
+/// Rectangles of the image in clip coordinates, two triangles each. They cover every receiver that may read
+/// an entry: of the kind that it reads, in a texel that the entry's triangle may touch (by the triangles'
+/// bounds on a coarse grid). `receivers` are not everywhere. Cost O(pixels + triangles), on all cores.
+std::vector<glm::vec2> tiles_with_entries(const ImageReceivers& image, const ReceiverGrid& receivers,
+                                          const EntryGeometry& entries, const Target& target);
 
 /// The whole image, in the same form.
 std::vector<glm::vec2> whole_image();

@@ -13,13 +13,6 @@ Uvw project(const Vec3& p) {
   return {glm::dvec2(p.x, p.y) / p.z, 1.0 / p.z};
 }
 
-/// Of what is no wider than this in texels one ray is as good as three.
-constexpr double kNarrow = 32.0;
-
-std::uint8_t probes_across(double width, double texel) {
-  return width < kNarrow * texel ? 1 : 3;
-}
-
 constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -142,8 +135,7 @@ std::vector<std::uint8_t> count_facet_probes(const EntryFootprints& footprints, 
     if (!f) return;
     const double least = receivers.least_weight(supports.facets[i].kind, uv_bounds_of(f->corners));
     const double length = glm::distance(f->corners[0].uv, f->corners[1].uv);
-    if (least < std::max(f->from_weight, f->to_weight))
-      probes[i] = probes_across(length, footprints.dilation(f->corners[0].uv));
+    if (least < std::max(f->from_weight, f->to_weight)) probes[i] = length < footprints.narrow() ? 1 : 3;
   });
   for (const GapFace& gap : gaps) {  // drawn where its facet is in sight
     const auto g = footprints.gap(gap);
@@ -161,8 +153,7 @@ std::vector<std::uint8_t> count_cone_probes(const EntryFootprints& footprints, c
     const ConeSector& sector = supports.cones[i];
     const auto c = footprints.cone(sector, kUnlimited, 0.0);
     if (c && receivers.least_weight(sector.kind, uv_bounds_of(*c)) < c->apex.w)
-      probes[i] =
-          probes_across((sector.to_angle - sector.from_angle) * c->radius, footprints.dilation(c->apex.uv));
+      probes[i] = (sector.to_angle - sector.from_angle) * c->radius < footprints.narrow() ? 1 : 3;
   });
   return probes;
 }

@@ -38,6 +38,7 @@ struct FootprintOptions {
   double far_weight;   ///< 1/z of the farthest receiver: boundaries end there
   double dilation;     ///< in (u, v): boundaries grow by this to all sides, to reach every texel they touch
   bool grows_with_uv;  ///< times 1 + |uv|, as the texels of a hemicube do
+  double narrow;       ///< in (u, v): of what is no wider than this one ray tells the reach as well as three
 };
 
 /// Footprints of one caster's boundary. Refers to its arguments.
@@ -73,6 +74,7 @@ class EntryFootprints {
 
   double dilation(const glm::dvec2& uv) const;
   double disk_radius() const { return space_.radius; }
+  double narrow() const { return options_.narrow; }
 
  private:
   bool cut(Vec3& a, Vec3& b) const;

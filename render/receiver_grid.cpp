@@ -11,8 +11,8 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr int kCells = 256;    // a side of the finest level
-constexpr int kMostCells = 4;  // a side that one answer looks at
+constexpr int kCells = ReceiverGrid::kCells;  // a side of the finest level
+constexpr int kMostCells = 4;                 // a side that one answer looks at
 constexpr float kNobody = std::numeric_limits<float>::infinity();
 
 std::size_t place(SupportKind kind) {
@@ -23,7 +23,7 @@ std::size_t place(SupportKind kind) {
 
 ReceiverGrid::ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals,
                            std::span<const float> cuts, const Target& target, int size, double radius)
-    : low_(target.window[0], target.window[2]) {
+    : reads_(image.positions.size()), low_(target.window[0], target.window[2]) {
   const glm::dvec2 extent = glm::dvec2(target.window[1], target.window[3]) - low_;
   cells_per_unit_ = static_cast<double>(kCells) / extent;
   texel_ = static_cast<double>(kCells) / size;
@@ -40,7 +40,10 @@ ReceiverGrid::ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec
     const auto x = static_cast<std::size_t>(std::clamp(cell.x, 0.0f, kCells - 1.0f));
     const auto y = static_cast<std::size_t>(std::clamp(cell.y, 0.0f, kCells - 1.0f));
     const float weight = 1.0f / p.z - slack * (1.0f + glm::dot(uv, uv));
+    Reads& read = reads_[i];
+    read.column = static_cast<std::uint8_t>(x), read.row = static_cast<std::uint8_t>(y);
     const auto put = [&](SupportKind kind, float value) {
+      (kind == SupportKind::kPenumbra ? read.penumbra : read.umbra) = true;
       float& least = cells[place(kind)][y * kCells + x];
       least = std::min(least, value);
     };

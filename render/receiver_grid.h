@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -40,6 +41,14 @@ struct UvBounds {
 class ReceiverGrid {
  public:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
+  static constexpr int kCells = 256;  ///< a side of the grid over the target's window
+
+  /// What one pixel reads.
+  struct Reads {
+    std::uint8_t column = 0, row = 0;      ///< its cell
+    bool penumbra = false, umbra = false;  ///< entries of which kind
+    bool any() const { return penumbra || umbra; }
+  };
 
   /// Receivers everywhere, as far away as can be.
   ReceiverGrid() = default;
@@ -52,12 +61,15 @@ class ReceiverGrid {
   /// A number that no receiver of entries of this kind within the bounds is below: entries of no greater 1/z
   /// are not read. kNone where there is no such receiver. Cost O(1).
   double least_weight(SupportKind kind, const UvBounds& bounds) const;
+  /// One per pixel; none for receivers everywhere.
+  std::span<const Reads> reads() const { return reads_; }
 
  private:
   /// Least 1/z by cell, of penumbra and umbra entries that are read.
   using Kinds = std::array<std::vector<float>, 2>;
   void build_levels(Kinds finest);
 
+  std::vector<Reads> reads_;
   std::vector<Kinds> levels_;  ///< each halves the cells a side of the one before
   glm::dvec2 low_{0.0}, cells_per_unit_{0.0};
   double texel_ = 0.0;  ///< in cells

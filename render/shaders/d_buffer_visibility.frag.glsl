@@ -1,7 +1,7 @@
 #version 450 core
 // Second pass of shading: visibility of the disk by the D-buffer's entries, at the pixels that the first pass chose.
 // CONTENTS 0: edges, kDistances: the 2004 paper's distances. CURVE, visibility of the parameter t: 0 exact, kSmoothstep,
-// kSquareRoot. ENTRIES: 1 or 2 are kept. CHECK 1: say where rays would tell whether the entry is right.
+// kSquareRoot. ENTRIES: 1 or 2 are kept.
 #include "disk_area.glsl"
 #include "d_buffer_lookup.glsl"
 
@@ -10,11 +10,6 @@ const int kSmoothstep = 1, kSquareRoot = 2;
 
 layout(early_fragment_tests) in;
 layout(location = 0) out float visibility;
-#if CHECK
-// A point of the disk, in radii: the middle of what the entry says is lit round a hidden center, or hidden round one that
-// is seen. kNowhere where nothing is to be asked.
-layout(location = 1) out vec2 aim;
-#endif
 
 // Area fraction of a half-plane, or one of the paper's approximations of it; t = (1 + δ)/2.
 float curve_of(float delta) {
@@ -66,23 +61,10 @@ Entry second_of(int kind, Texel t) {
   return Entry(texelFetch(second_entry, at, 0).r, weight_of(texelFetch(second_depth, at, 0).r, t), kind != kPenumbra);
 }
 
-const vec2 kNowhere = vec2(2.0);
-
 struct Share {
   float visibility;  // -1: the entry says nothing about this receiver
   Chord chord;
-  vec2 aim;
 };
-
-bool holds(Chord c, vec2 p) { return dot(c.normal, p) + c.delta > 0.0; }
-
-// A point well inside of the half-plane and of the other one: the middle of what the first cuts off, or what lies near the
-// rim between the two.
-vec2 middle_of(Chord one, Chord other) {
-  vec2 first = one.normal * (0.5 - 0.5 * one.delta), both = 0.9 * normalize(one.normal + other.normal);
-  if (holds(other, first)) return first;
-  return holds(one, both) && holds(other, both) ? both : kNowhere;
-}
 
 // Visibility by one edge, and its neighbour at the nearer corner or the horizon.
 Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord horizon) {
@@ -91,8 +73,8 @@ Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord
   vec3 plane = edge_plane(r.x, a, b);
   Chord chord = chord_of_plane(plane, r.x, radius);
   bool below = max(dot(r.n, a - r.x), dot(r.n, b - r.x)) <= kOnPlane * r.x.z;  // the receiver's own plane hides it
-  if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return Share(-1.0, kWholeDisk, kNowhere);
-  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, kNowhere);
+  if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return Share(-1.0, kWholeDisk);
+  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord);
   Corner corner = nearer_corner(facet, a, b, plane, r.x);
   bool cut_by_horizon = horizon.delta < 1.0;
   // Of what both edges hide, either may leave the center lit; of what either hides, either may hide it.
@@ -105,11 +87,7 @@ Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord
   // Round a hidden center only the point of a wedge in front of the disk leaves more than half of it lit.
   bool pointed = convex && corner.inside && dot(chord.normal, other.normal) < kBlunt;
   float most = hidden && !(pointed && !overlapped) ? 0.5 : 1.0;
-  // What decides between this entry and none: of the lit part what lies beyond both edges, or beyond one of a wedge.
-  bool either = hidden ? convex : !convex && !cut_by_horizon;
-  Chord also = either ? kWholeDisk : hidden || cut_by_horizon ? other : opposite(other);
-  vec2 aim_ = middle_of(hidden ? chord : opposite(chord), also);
-  return Share(min(convex ? 1.0 - area : area, most), chord, aim_);
+  return Share(min(convex ? 1.0 - area : area, most), chord);
 }
 
 // Whether the surface that the light's center sees in this direction is not the last one before the receiver.
@@ -122,16 +100,16 @@ bool is_overlapped(Receiver r, Texel t) {
 // with |cxpv| in the other; with every distance along one line written as 1/weight it is (entry - x) / (2 (edge - x)).
 Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   float edge = uintBitsToFloat(e.content);
-  if (r.weight >= e.weight || edge <= r.weight) return Share(-1.0, kWholeDisk, kNowhere);
+  if (r.weight >= e.weight || edge <= r.weight) return Share(-1.0, kWholeDisk);
   float t = (e.weight - r.weight) / (2.0 * (edge - r.weight));
-  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, kNowhere);
+  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk);
 }
 
 Share share_of(Entry e, bool hidden, Receiver r, Texel t, Chord horizon) {
   if (CONTENTS == kDistances) return share_of_distances(e, r, horizon);
   // What a texel's width is worth on a boundary's slope of 1/radius in (x/z, y/z).
   float slack = t.size * dot(t.direction, t.direction) / (t.direction.z * t.direction.z * radius);
-  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, is_overlapped(r, t), r, horizon) : Share(-1.0, kWholeDisk, kNowhere);
+  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, is_overlapped(r, t), r, horizon) : Share(-1.0, kWholeDisk);
 }
 
 // Two penumbra entries are two occluders: hidden is what either hides. Two umbra entries are two sides of one occluder:
@@ -150,7 +128,7 @@ void main() {
   bool hidden = r.cut < 1.0;
   int kind = kind_of_entries(hidden, r, t);
   bool umbra = kind != kPenumbra;
-  Share first = share_of(first_of(kind, t), hidden, r, t, horizon), second = Share(-1.0, kWholeDisk, kNowhere);
+  Share first = share_of(first_of(kind, t), hidden, r, t, horizon), second = Share(-1.0, kWholeDisk);
 #if ENTRIES > 1
   Entry e = second_of(kind, t);
   if (e.content != kEmpty && horizon.delta >= 1.0) second = share_of(e, hidden, r, t, horizon);
@@ -164,7 +142,4 @@ void main() {
   } else {
     visibility = second.visibility < 0.0 ? first.visibility : union_of(first, second, umbra);
   }
-#if CHECK
-  aim = first.visibility < 0.0 ? kNowhere : first.aim;
-#endif
 }

@@ -73,8 +73,8 @@ TEST(ReceiverGrid, KnowsWhereNobodyIs) {
   EXPECT_EQ(detail::ReceiverGrid().least_weight(SupportKind::kUmbra, far), -detail::ReceiverGrid::kNone);
 }
 
-/// What a pixel shows must not hang on which others there are, though entries that no receiver reads are not
-/// drawn. Depths of facets that are cut elsewhere round differently, which a few pixels show.
+/// What entries say of a pixel must not hang on which others there are, though entries that no receiver reads
+/// are not drawn. Depths of facets that are cut elsewhere round differently, which a few pixels show.
 TEST(ReceiverGrid, PixelsDoNotDependOnOtherPixels) {
   for (const char* name : {"cube-medium", "torus-medium", "boxes-medium", "bunny-medium", "knot1-large"}) {
     const Scene scene = testing::data_scene(name);
@@ -82,13 +82,14 @@ TEST(ReceiverGrid, PixelsDoNotDependOnOtherPixels) {
     const auto context = gl::make_context(gl::Backend::kOsMesa);
     DBuffer buffer(*context, scene, view.rays);
     buffer.set_surface(view.surface);
-    const Values all = buffer.render(scene.light, {.size = 512}).visibility;
+    const DBufferOptions options{.size = 512, .check = EntryCheck::kNone};  // which looks at neighbours
+    const Values all = buffer.render(scene.light, options).visibility;
     SurfaceBuffer few = view.surface;
     Random random(3);
     for (std::int32_t& object : few.object)
       if (random.uniform(0, 1) < 0.9) object = -1;
     buffer.set_surface(few);
-    const Values some = buffer.render(scene.light, {.size = 512}).visibility;
+    const Values some = buffer.render(scene.light, options).visibility;
     int seen = 0, differ = 0;
     for (std::size_t i = 0; i < few.size(); ++i) {
       if (!few.hit(i) || (all[i] == 1.0f && some[i] == 1.0f)) continue;
