@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "render/float_lanes.h"
 #include "render/silhouette_gather.h"

@@ -146,7 +146,7 @@ void BandTree::gather(const Shaft& shaft, std::vector<Siblings>& out) const {
   out.clear();
   if (levels_.empty()) return;
   const ShaftTest test(shaft, extent_);
-  thread_local std::vector<Siblings> kept;
+  std::vector<Siblings> kept;
   out.push_back({0, (1u << kFanOut) - 1});
   for (std::size_t level = levels_.size(); level-- > 0;) {
     kept.resize(out.size());
