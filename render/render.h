@@ -41,6 +41,8 @@ struct RenderOptions {
   SilhouetteOptions silhouette;
   OcclusionOptions occlusion;
   bool keep_textures = false;  ///< RenderResult::textures is wanted
+  bool keep_surface = false;   ///< the surface buffer of the frame before serves again where camera and size
+                               ///< are the same and follow_light was not called: the same bits
   Progress progress;           ///< asked between stages and in the long ones
 };
 
@@ -62,7 +64,9 @@ class Renderer {
   ~Renderer();
   RenderResult render_frame(const RenderOptions& options);
   /// To be called when the scene's light has moved or changed its size: the rays' frame follows it, so that
-  /// the next image is bit for bit that of a new renderer. What does not depend on the light is kept.
+  /// the next image is bit for bit that of a new renderer. What does not depend on the light is kept. Without
+  /// it images are right as well, but may differ in the last digits of rays (a draft's, while a light is
+  /// dragged within a few scene sizes); it costs the building of Embree's hierarchy.
   void follow_light(const RenderOptions& options);
 
  private:
