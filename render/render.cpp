@@ -135,7 +135,7 @@ struct Renderer::State {
   /// The context that the options ask for; what was made with another goes away.
   gl::Context& context_for(const RenderOptions& options);
 
-  /// What the camera sees, as RenderOptions::keep_surface says.
+  /// What the camera sees, as RenderOptions::reuse says.
   SurfaceBuffer look(const RenderOptions& options);
   /// Visibility by the chosen method; fills stages and stats.
   Seen see(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
@@ -159,7 +159,7 @@ gl::Context& Renderer::State::context_for(const RenderOptions& options) {
 }
 
 SurfaceBuffer Renderer::State::look(const RenderOptions& options) {
-  if (!options.keep_surface) {
+  if (!options.reuse) {
     kept.reset();
     return make_surface_buffer(scene, rays, options.width, options.height);
   }
@@ -179,6 +179,7 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
   }
   if (!kept || !kept->in_d_buffer) d_buffer->set_surface(surface);
   if (kept) kept->in_d_buffer = true;
+  if (!options.reuse) d_buffer->forget_light();
   clock.finish("upload_surface");
   report(options.progress, 0.0);
   DBufferFrame frame = d_buffer->render(scene.light, options.d_buffer, options.progress);

@@ -41,9 +41,10 @@ struct RenderOptions {
   SilhouetteOptions silhouette;
   OcclusionOptions occlusion;
   bool keep_textures = false;  ///< RenderResult::textures is wanted
-  bool keep_surface = false;   ///< the surface buffer of the frame before serves again where camera and size
-                               ///< are the same and follow_light was not called: the same bits
-  Progress progress;           ///< asked between stages and in the long ones
+  bool reuse = false;          ///< what neither camera nor light has changed since the frame before serves
+                       ///< again (surface buffer; the D-buffer's classes, silhouettes and facets), where
+                       ///< follow_light was not called: the same bits, and no stage times for it
+  Progress progress;  ///< asked between stages and in the long ones
 };
 
 struct RenderResult {

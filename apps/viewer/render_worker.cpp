@@ -173,7 +173,7 @@ void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOp
   frame.sides.clear();
   for (RenderOptions each : options) {
     each.progress = [this](double) { return !outdated(); };
-    each.keep_surface = true;
+    each.reuse = true;
     Side side{.result = std::make_shared<const RenderResult>(renderer_->render_frame(each)),
               .options = each,
               .rays = is_reference(each) ? each.reference.samples : 0};
@@ -211,7 +211,7 @@ void RenderWorker::refine(const RenderJob& job, Frame frame) {
   const auto first = std::find_if(frame.sides.begin(), frame.sides.end(),
                                   [](const Side& side) { return is_reference(side.options); });
   RenderOptions options = first->options;
-  options.keep_surface = true;
+  options.reuse = true;
   const std::uint64_t seed = options.reference.seed;
   reference.add(first->result->image.at("visibility"));
   while (frame.refining) {
