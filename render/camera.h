@@ -10,6 +10,7 @@ struct Camera {
   Vec3 target{0.0};
   Vec3 up{0.0, 1.0, 0.0};       ///< any vector not parallel to the line of sight
   double fov_y_degrees = 40.0;  ///< vertical field of view, in (0, 180)
+  friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// The ray through a point of the image: origin eye, direction not normalised (length 1 along the line of

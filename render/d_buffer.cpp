@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 
 #include "mesh/error.h"
 #include "mesh/vertex_rings.h"
@@ -30,6 +31,10 @@ glm::mat3 light_matrix(const LightFrame& axes) {
   return glm::transpose(glm::mat3(glm::vec3(axes.u), glm::vec3(axes.v), glm::vec3(axes.w)));
 }
 
+bool is_same(const DiskLight& a, const DiskLight& b) {
+  return a.center == b.center && a.normal == b.normal && a.radius == b.radius;
+}
+
 }  // namespace
 
 struct DBuffer::Impl {
@@ -39,12 +44,17 @@ struct DBuffer::Impl {
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress);
   std::vector<TexturePicture> textures() const;
 
-  /// Where one caster's shadow is bounded.
-  struct Boundary {
+  /// What the light alone says of where one caster's shadow is bounded.
+  struct Outline {
     Classification classes;
     Silhouettes silhouettes;
-    Supports supports;
+    Supports supports;  ///< facets, not linked yet
     std::vector<GapFace> gaps;
+  };
+  /// The same with what the image's receivers ask for.
+  struct Boundary {
+    const Outline* outline;
+    Supports supports;
     detail::FacetReach reach;
   };
   /// What one frame knows before anything is drawn.
@@ -63,6 +73,7 @@ struct DBuffer::Impl {
     }
   };
   void choose_view(const DBufferOptions& options, Plan& plan) const;
+  void find_outlines(const DiskLight& light, StageClock& clock);
   void find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const;
   void find_geometry(Plan& plan) const;
   static nlohmann::json count(const Plan& plan);
@@ -77,6 +88,8 @@ struct DBuffer::Impl {
   Vec3 origin;  ///< scene frame: (world - origin) · scale, about the casters
   double scale;
   std::vector<Caster> casters;
+  std::vector<Outline> outlines;      ///< one per caster
+  std::optional<DiskLight> outlined;  ///< the light that these are for
 
   detail::DBufferPasses passes;
   detail::DBufferShading shading;
@@ -188,23 +201,35 @@ void DBuffer::Impl::choose_view(const DBufferOptions& options, Plan& plan) const
     plan.receivers = shading.receiver_grid(plan.view(), options.size);
 }
 
-/// Classes to reach, stage by stage over all casters. Most facets of a fine mesh are hidden; only where
-/// others end is it asked how the boundary goes on.
+/// Classes to facets, stage by stage over all casters; nothing where the light is that of the last frame.
+void DBuffer::Impl::find_outlines(const DiskLight& light, StageClock& clock) {
+  if (outlined && is_same(*outlined, light)) return;
+  outlined.reset();
+  outlines.assign(casters.size(), {});
+  const auto stage = [&](const char* name, const auto& body) {
+    for (std::size_t i = 0; i < casters.size(); ++i) body(*casters[i].mesh, outlines[i]);
+    clock.finish(name);
+  };
+  stage("classify", [&](const TriangleMesh& m, Outline& o) { o.classes = classify_faces(m, light); });
+  stage("silhouette",
+        [&](const TriangleMesh& m, Outline& o) { o.silhouettes = find_silhouettes(m, o.classes); });
+  stage("supports", [&](const TriangleMesh& m, Outline& o) {
+    o.supports.facets = find_support_facets(m, light, o.silhouettes);
+    o.gaps = find_gap_faces(m, light, o.classes, o.supports);
+  });
+  outlined = light;
+}
+
+/// Most facets of a fine mesh are hidden; only where others end is it asked how the boundary goes on.
 void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const {
-  plan.boundaries.resize(casters.size());
+  for (const Outline& o : outlines) plan.boundaries.push_back({&o, o.supports, {}});
   const auto stage = [&](const char* name, const auto& body) {
     for (std::size_t i = 0; i < casters.size(); ++i) body(casters[i], plan.boundaries[i]);
     clock.finish(name);
   };
-  stage("classify", [&](const Caster& c, Boundary& b) { b.classes = classify_faces(*c.mesh, light); });
-  stage("silhouette",
-        [&](const Caster& c, Boundary& b) { b.silhouettes = find_silhouettes(*c.mesh, b.classes); });
-  stage("supports", [&](const Caster& c, Boundary& b) {
-    b.supports.facets = find_support_facets(*c.mesh, light, b.silhouettes);
-    b.gaps = find_gap_faces(*c.mesh, light, b.classes, b.supports);
-  });
   stage("reach", [&](const Caster& c, Boundary& b) {
-    const auto probes = detail::count_facet_probes(plan.footprints(c, b), b.supports, b.gaps, plan.receivers);
+    const auto probes =
+        detail::count_facet_probes(plan.footprints(c, b), b.supports, b.outline->gaps, plan.receivers);
     detail::find_facet_reach(*c.mesh, light, b.supports, probes, rays, b.reach);
   });
   stage("corners", [&](const Caster& c, Boundary& b) {
@@ -221,7 +246,8 @@ void DBuffer::Impl::find_geometry(Plan& plan) const {
   for (std::size_t i = 0; i < casters.size(); ++i) {
     const Boundary& b = plan.boundaries[i];
     const detail::EntryFootprints footprints = plan.footprints(casters[i], b);
-    detail::append_entry_geometry({footprints, b.supports, b.gaps, b.reach, plan.receivers}, plan.geometry);
+    detail::append_entry_geometry({footprints, b.supports, b.outline->gaps, b.reach, plan.receivers},
+                                  plan.geometry);
   }
   detail::sort_by_geometry(plan.geometry);
 }
@@ -229,11 +255,11 @@ void DBuffer::Impl::find_geometry(Plan& plan) const {
 nlohmann::json DBuffer::Impl::count(const Plan& plan) {
   std::size_t faces = 0, mixed = 0, umbra = 0, penumbra = 0, band = 0, facets = 0, cones = 0;
   for (const Boundary& b : plan.boundaries) {
-    faces += b.classes.faces.size();
-    mixed += b.classes.mixed;
-    umbra += b.silhouettes.umbra.size();
-    penumbra += b.silhouettes.penumbra.size();
-    band += b.silhouettes.band.size();
+    faces += b.outline->classes.faces.size();
+    mixed += b.outline->classes.mixed;
+    umbra += b.outline->silhouettes.umbra.size();
+    penumbra += b.outline->silhouettes.penumbra.size();
+    band += b.outline->silhouettes.band.size();
     facets += b.supports.facets.size();
     cones += b.supports.cones.size();
   }
@@ -282,6 +308,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   clock.finish("center");
   choose_view(options, plan);
   clock.finish("receivers");
+  find_outlines(light, clock);
   find_boundaries(light, plan, clock);
   find_geometry(plan);
   clock.finish("facets");
@@ -375,6 +402,10 @@ DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& wante
   impl_->context.make_current();
   const gl::StateScope scope(impl_->gl);
   return impl_->render(light, options, progress);
+}
+
+void DBuffer::forget_light() {
+  impl_->outlined.reset();
 }
 
 std::vector<TexturePicture> DBuffer::textures() const {

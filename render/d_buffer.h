@@ -84,12 +84,14 @@ class DBuffer {
   ~DBuffer();
   /// The receivers, once per camera; copied. Cost O(pixels).
   void set_surface(const SurfaceBuffer& surface);
-  /// Everything that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility.
-  /// Throws UsageError for a size or entries outside their range and before set_surface, SystemError where
-  /// OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), and one or two rays a pixel with
-  /// CenterTest::kRay, and up to six, mostly one, where entries apply with EntryCheck::kRays, and sixteen
-  /// where entries contradict each other.
+  /// All that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility; the first
+  /// three are kept while the light stays as it is. Throws UsageError for a size or entries outside their
+  /// range and before set_surface, SystemError where OpenGL fails, Cancelled. Cost O(faces + band + texels +
+  /// pixels), and one or two rays a pixel with CenterTest::kRay, and up to six, mostly one, where entries
+  /// apply with EntryCheck::kRays, and sixteen where entries contradict each other.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
+  /// The next frame finds everything anew, though its light be that of the last: for timing.
+  void forget_light();
   /// What the last frame left in the textures of the first target, by number, one grey a number: the first
   /// surface, penumbra entries, umbra entries before and behind the last surface; none that are empty.
   std::vector<TexturePicture> textures() const;

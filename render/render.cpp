@@ -123,11 +123,20 @@ struct Renderer::State {
   std::unique_ptr<DBuffer> d_buffer;
   std::unique_ptr<OcclusionTextures> occlusion;
   gl::Backend backend{};
+  /// What the camera saw last, and whether the D-buffer has it.
+  struct Kept {
+    Camera camera;
+    SurfaceBuffer surface;
+    bool in_d_buffer = false;
+  };
+  std::optional<Kept> kept;
   std::vector<TexturePicture> textures;  ///< of the frame under way
 
   /// The context that the options ask for; what was made with another goes away.
   gl::Context& context_for(const RenderOptions& options);
 
+  /// What the camera sees, as RenderOptions::reuse says.
+  SurfaceBuffer look(const RenderOptions& options);
   /// Visibility by the chosen method; fills stages and stats.
   Seen see(const RenderOptions& options, const SurfaceBuffer& surface, StageClock& clock,
            nlohmann::json& stats);
@@ -149,14 +158,28 @@ gl::Context& Renderer::State::context_for(const RenderOptions& options) {
   return *context;
 }
 
+SurfaceBuffer Renderer::State::look(const RenderOptions& options) {
+  if (!options.reuse) {
+    kept.reset();
+    return make_surface_buffer(scene, rays, options.width, options.height);
+  }
+  if (!kept || kept->camera != scene.camera || kept->surface.width != options.width ||
+      kept->surface.height != options.height)
+    kept = {scene.camera, make_surface_buffer(scene, rays, options.width, options.height)};
+  return kept->surface;
+}
+
 std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, const SurfaceBuffer& surface,
                                                 StageClock& clock, nlohmann::json& stats) {
   gl::Context& gl = context_for(options);
   if (!d_buffer) {
     d_buffer = std::make_unique<DBuffer>(gl, scene, rays);
+    if (kept) kept->in_d_buffer = false;
     clock.restart();  // one-time set-up, not a stage
   }
-  d_buffer->set_surface(surface);
+  if (!kept || !kept->in_d_buffer) d_buffer->set_surface(surface);
+  if (kept) kept->in_d_buffer = true;
+  if (!options.reuse) d_buffer->forget_light();
   clock.finish("upload_surface");
   report(options.progress, 0.0);
   DBufferFrame frame = d_buffer->render(scene.light, options.d_buffer, options.progress);
@@ -259,6 +282,7 @@ Renderer::~Renderer() = default;
 void Renderer::follow_light(const RenderOptions& options) {
   const double scale = state_->rays.frame().scale;
   state_->rays = RayScene(state_->scene, options.threads);
+  state_->kept.reset();
   if (state_->rays.frame().scale != scale) state_->d_buffer.reset();  // casters were uploaded in that scale
 }
 
@@ -270,7 +294,7 @@ RenderResult Renderer::render_frame(const RenderOptions& options) {
   out.stats = {{"method", name_of(options.method)},
                {"options", nlohmann::json::object()},
                {"counts", nlohmann::json::object()}};
-  out.surface = make_surface_buffer(state_->scene, state_->rays, options.width, options.height);
+  out.surface = state_->look(options);
   clock.finish("surface_buffer");
   report(options.progress, 0.0);
   state_->textures.clear();

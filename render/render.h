@@ -41,7 +41,10 @@ struct RenderOptions {
   SilhouetteOptions silhouette;
   OcclusionOptions occlusion;
   bool keep_textures = false;  ///< RenderResult::textures is wanted
-  Progress progress;           ///< asked between stages and in the long ones
+  bool reuse = false;          ///< what neither camera nor light has changed since the frame before serves
+                       ///< again (surface buffer; the D-buffer's classes, silhouettes and facets), where
+                       ///< follow_light was not called: the same bits, and no stage times for it
+  Progress progress;  ///< asked between stages and in the long ones
 };
 
 struct RenderResult {
@@ -62,7 +65,9 @@ class Renderer {
   ~Renderer();
   RenderResult render_frame(const RenderOptions& options);
   /// To be called when the scene's light has moved or changed its size: the rays' frame follows it, so that
-  /// the next image is bit for bit that of a new renderer. What does not depend on the light is kept.
+  /// the next image is bit for bit that of a new renderer. What does not depend on the light is kept. Without
+  /// it images are right as well, but may differ in the last digits of rays (a draft's, while a light is
+  /// dragged within a few scene sizes); it costs the building of Embree's hierarchy.
   void follow_light(const RenderOptions& options);
 
  private:

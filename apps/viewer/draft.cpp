@@ -8,6 +8,7 @@ namespace {
 constexpr double kBudget = 36.0;  // ms: leaves 14 of 50 to the window
 constexpr int kCoarsest = 6;
 constexpr int kDraftRays = 16;
+constexpr int kDraftTexels = 256;
 
 }  // namespace
 
@@ -17,8 +18,7 @@ RenderOptions DraftPolicy::draft_of(const RenderOptions& options) const {
   if (reduction_ == 1) return draft;
   draft.width = (options.width + reduction_ - 1) / reduction_;
   draft.height = (options.height + reduction_ - 1) / reduction_;
-  const int coarse = std::max(256, options.d_buffer.size / (reduction_ > 2 ? 4 : 2));
-  draft.d_buffer.size = std::min(options.d_buffer.size, coarse);
+  if (options.d_buffer.size == 0 || options.d_buffer.size > kDraftTexels) draft.d_buffer.size = kDraftTexels;
   return draft;
 }
 

@@ -147,7 +147,7 @@ Frame RenderWorker::first_frame(const RenderJob& job) const {
 }
 
 void RenderWorker::adopt(const RenderJob& job) {
-  const bool other_model = model_ != job.model, other_light = !same(scene_.light, job.light);
+  const bool other_model = model_ != job.model;
   if (other_model) {
     renderer_.reset();
     scene_ = *job.model;
@@ -156,10 +156,14 @@ void RenderWorker::adopt(const RenderJob& job) {
   scene_.light = job.light;
   scene_.radiance = job.radiance;
   scene_.camera = job.camera;
-  if (!renderer_)
-    renderer_ = std::make_unique<Renderer>(scene_, job.sides.front());
-  else if (other_light)
+  // A draft does without the last digits that the rays' frame gives.
+  const bool follows = !renderer_ || (!job.moving && !same(followed_, job.light));
+  if (!follows) return;
+  if (renderer_)
     renderer_->follow_light(job.sides.front());
+  else
+    renderer_ = std::make_unique<Renderer>(scene_, job.sides.front());
+  followed_ = job.light;
 }
 
 void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOptions>& options,
@@ -169,6 +173,7 @@ void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOp
   frame.sides.clear();
   for (RenderOptions each : options) {
     each.progress = [this](double) { return !outdated(); };
+    each.reuse = true;
     Side side{.result = std::make_shared<const RenderResult>(renderer_->render_frame(each)),
               .options = each,
               .rays = is_reference(each) ? each.reference.samples : 0};
@@ -206,6 +211,7 @@ void RenderWorker::refine(const RenderJob& job, Frame frame) {
   const auto first = std::find_if(frame.sides.begin(), frame.sides.end(),
                                   [](const Side& side) { return is_reference(side.options); });
   RenderOptions options = first->options;
+  options.reuse = true;
   const std::uint64_t seed = options.reference.seed;
   reference.add(first->result->image.at("visibility"));
   while (frame.refining) {

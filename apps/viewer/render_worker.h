@@ -82,6 +82,7 @@ class RenderWorker {
   std::shared_ptr<const Scene> model_;
   Scene scene_;
   std::unique_ptr<Renderer> renderer_;
+  DiskLight followed_;  ///< the light that the renderer's rays are framed for
   DraftPolicy draft_;
   std::thread thread_;
 };

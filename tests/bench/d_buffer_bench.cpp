@@ -15,6 +15,18 @@ namespace {
 constexpr int kFrames = 7;
 constexpr int kMostRays = 1024;  // more are not tried
 
+/// A frame of which all that depends on the light is found anew.
+DBufferFrame fresh_frame(DBuffer& d_buffer, const DiskLight& light, const DBufferOptions& options = {}) {
+  d_buffer.forget_light();
+  return d_buffer.render(light, options);
+}
+
+double total_ms(const DBufferFrame& frame) {
+  double total = 0.0;
+  for (const StageTime& s : frame.stages) total += s.milliseconds;
+  return total;
+}
+
 /// Rays per pixel at which stratified sampling has the given error, by log-log interpolation between measured
 /// counts.
 int rays_of_equal_error(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
@@ -59,14 +71,12 @@ void time_scene(const std::string& name) {
   std::iota(pixels.begin(), pixels.end(), 0u);
   std::size_t traced = 0;
   for (int i = 0; i < kFrames; ++i) {
-    frame = d_buffer.render(scene.light, {});
-    double total = 0.0;
+    frame = fresh_frame(d_buffer, scene.light);
     for (const StageTime& s : frame.stages) {
       if (stages[s.name].empty()) order.push_back(s.name);
       stages[s.name].push_back(s.milliseconds);
-      total += s.milliseconds;
     }
-    totals.push_back(total);
+    totals.push_back(total_ms(frame));
     if (!ray_times.empty() && ray_times.back() > 1000.0 && i >= 2) continue;  // long runs need fewer
     equal.packets = true;
     const ReferenceResult r = trace_reference(scene, rays, surface, pixels, equal);
@@ -106,8 +116,7 @@ void time_sizes(const std::string& name) {
     options.size = size;
     std::vector<double> totals;
     for (int i = 0; i < kFrames; ++i) {
-      double total = 0.0;
-      for (const StageTime& s : d_buffer.render(scene.light, options).stages) total += s.milliseconds;
+      const double total = total_ms(fresh_frame(d_buffer, scene.light, options));
       if (i > 0) totals.push_back(total);
     }
     std::printf("  %d → %.0f", size, median(totals));
@@ -124,8 +133,7 @@ double frame_ms(const Scene& scene) {
   d_buffer.set_surface(surface);
   std::vector<double> totals;
   for (int i = 0; i < kFrames; ++i) {
-    double total = 0.0;
-    for (const StageTime& s : d_buffer.render(scene.light, {}).stages) total += s.milliseconds;
+    const double total = total_ms(fresh_frame(d_buffer, scene.light));
     if (i > 0) totals.push_back(total);
   }
   return median(totals);

@@ -143,5 +143,33 @@ TEST(Renderer, MethodsLeaveTheContextAsItWas) {
   }
 }
 
+// What is kept of the frame before changes no bit either, whatever came between.
+TEST(Renderer, WhatIsReusedChangesNothing) {
+  Scene scene = testing::data_scene("torus-medium");
+  Renderer keeping(scene, choices().front().options);
+  const auto expect_same = [&](const Choice& each) {
+    RenderOptions options = each.options;
+    const auto fresh = render(scene, options).image.channels;
+    options.reuse = true;
+    EXPECT_EQ(keeping.render_frame(options).image.channels, fresh) << each.name;
+  };
+  for (const Choice& each : choices()) expect_same(each);
+  for (Choice each : choices()) {
+    each.options.width = 100;
+    expect_same(each);
+  }
+  scene.camera.eye.y += 0.3;
+  for (const Choice& each : choices()) expect_same(each);
+  scene.light.radius *= 1.5;
+  for (const Choice& each : choices()) {
+    RenderOptions options = each.options;
+    options.reuse = true;
+    keeping.render_frame(options);  // the same rays' frame: no bits are promised, but nothing stale may stay
+  }
+  scene.light.center.x += 0.2;
+  keeping.follow_light(choices().front().options);
+  for (const Choice& each : choices()) expect_same(each);
+}
+
 }  // namespace
 }  // namespace penumbra
