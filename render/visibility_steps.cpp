@@ -53,7 +53,7 @@ class Steps {
     }
     for (const std::uint32_t i : changed) {
       for_neighbours(i, [&](std::uint32_t j) {
-        if (known_[j] || !is_step(i, j)) return;
+        if (known_[j] || !is_one_surface(i, j)) return;
         known_[j] = 1;
         next.push_back(j);
       });
@@ -98,6 +98,10 @@ class Steps {
     const float before = share_[i] - share_[beyond(j, i)], after = share_[beyond(i, j)] - share_[j];
     if (!(std::abs(step - before) > kVisibilityStep && std::abs(step - after) > kVisibilityStep))
       return false;
+    return is_one_surface(i, j);
+  }
+
+  bool is_one_surface(std::uint32_t i, std::uint32_t j) const {
     if (image_.positions[i].w == 0.0f || image_.positions[j].w == 0.0f) return false;
     const glm::vec3 n(image_.normals[i]), way(image_.positions[j] - image_.positions[i]);
     return glm::dot(n, glm::vec3(image_.normals[j])) > kTurned &&
