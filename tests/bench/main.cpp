@@ -1,6 +1,7 @@
 // What accuracy costs in time: `./run bench [PART [SCENE...]]`. Medians of interleaved frames, everything
 // finished, one process.
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -8,10 +9,11 @@
 #include "tests/bench/classify_price.h"
 #include "tests/bench/occlusion_bench.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+/// Returns the exit code; throws what the scenes' loading throws.
+int run(const std::string& part, const std::vector<std::string>& named) {
   using namespace penumbra::bench;
-  const std::string part = argc > 1 ? argv[1] : "all";
-  const std::vector<std::string> named(argv + (argc > 1 ? 2 : 1), argv + argc);
   const auto scenes = [&](const std::vector<std::string>& usual) { return named.empty() ? usual : named; };
   const auto wanted = [&](const char* name) { return part == "all" || part == name; };
   bool known = false;
@@ -34,4 +36,22 @@ int main(int argc, char** argv) {
       "penumbra_bench: no part \"%s\"; there are price, dbuffer, silhouette, growth, occlusion and all\n",
       part.c_str());
   return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string part = argc > 1 ? argv[1] : "all";
+  if (part == "--help" || part == "-h") {
+    std::puts(
+        "penumbra_bench [PART [SCENE...]]: price, dbuffer, silhouette, growth, occlusion or all; scenes of "
+        "data/scenes");
+    return 0;
+  }
+  try {
+    return run(part, {argv + (argc > 1 ? 2 : 1), argv + argc});
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "penumbra_bench: %s\n", e.what());
+    return 1;
+  }
 }
