@@ -29,10 +29,10 @@ class CenterRays {
   /// such that see nothing of it count as open. Cost: one ray a pixel and another where that is cut, on all
   /// cores.
   std::vector<float> first_cut(const DiskLight& light) const;
-  /// Visibility of each of the given pixels: the disk's fraction above the horizon, times the share that is
-  /// seen of sixteen points of equal shares of the disk (of those above). The points are the same for all
-  /// pixels; where one edge crosses the disk they err by .035 (root mean square over all chords), at worst by
-  /// .12. Cost: sixteen rays a pixel, on all cores.
+  /// Visibility of each of the given pixels, all of which see a surface: the disk's fraction above the
+  /// horizon, times the share that is seen of sixteen points of equal shares of the disk (of those above).
+  /// The points are the same for all pixels; where one edge crosses the disk they err by .035 (root mean
+  /// square over all chords), at worst by .12. Cost: sixteen rays a pixel, on all cores.
   std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
   /// One per pixel: the disk's area fraction above the receiver's horizon, 0 behind the light, 1 where
   /// nothing is seen.

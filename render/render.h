@@ -67,7 +67,7 @@ class Renderer {
   /// To be called when the scene's light has moved or changed its size: the rays' frame follows it, so that
   /// the next image is bit for bit that of a new renderer. What does not depend on the light is kept. Without
   /// it images are right as well, but may differ in the last digits of rays (a draft's, while a light is
-  /// dragged within a few scene sizes); it costs the building of Embree's hierarchy.
+  /// dragged within a few scene sizes). Cost: Embree's hierarchy is built anew.
   void follow_light(const RenderOptions& options);
 
  private:

@@ -29,8 +29,9 @@ using AskVisibility = std::function<std::vector<float>(std::span<const std::uint
 /// makes the answer count; less is noise of the answer or the slope of a narrow penumbra.
 inline constexpr float kVisibilityStep = 0.1f;
 
-/// Asks about both sides of every step between neighbours on one surface, and again where an answer makes a
-/// new step. Returns how many pixels were asked, each once. Cost O(pixels) and the answers, on all cores.
+/// Asks about both sides of every step between neighbours on one surface, and about the neighbours of every
+/// pixel that an answer changed. Returns how many pixels were asked, each once; all of them see a surface.
+/// Cost O(pixels) and the answers, on all cores.
 std::size_t ask_beside_steps(const ImageSurface& image, const AskVisibility& ask,
                              std::vector<float>& visibility);
 
