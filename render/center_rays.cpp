@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "render/disk_area.h"
 #include "render/disk_samples.h"
@@ -124,7 +125,11 @@ struct Packet {
 }  // namespace
 
 CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
-    : rays_(rays), pixels_(surface.size()), place_(surface.size(), 0) {
+
+    : rays_(rays),
+      pixels_(surface.size()),
+      width_(static_cast<std::uint32_t>(surface.width)),
+      place_(surface.size(), 0) {
   const auto count = static_cast<std::size_t>(
       std::count_if(surface.object.begin(), surface.object.end(), [](int object) { return object >= 0; }));
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
@@ -189,12 +194,25 @@ std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
 
 namespace {
 
-/// The middles of four by four strata, mapped to the disk.
-std::array<detail::DiskPoint, kLanes> middles_of_strata() {
-  std::array<detail::DiskPoint, kLanes> out;
-  for (std::size_t k = 0; k < kLanes; ++k)
-    out[k] = detail::concentric_disk((static_cast<float>(k % 4) + 0.5f) / 4.0f,
-                                     (static_cast<float>(k / 4) + 0.5f) / 4.0f);
+using DiskPoints = std::array<detail::DiskPoint, kLanes>;
+
+/// A sunflower's seeds (Vogel 1979): rings of equal areas, the golden angle between one and the next.
+DiskPoints sunflower(double turn) {
+  constexpr double kGolden = 2.399963229728653;
+  DiskPoints out;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const double radius = std::sqrt((static_cast<double>(k) + 0.5) / kLanes);
+    const double angle = kGolden * static_cast<double>(k) + turn;
+    out[k] = {static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle))};
+  }
+  return out;
+}
+
+/// One pattern for each of three by three pixels, each turned against the others.
+std::array<DiskPoints, 9> interleaved_points() {
+  std::array<DiskPoints, 9> out;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = sunflower(2.0 * std::numbers::pi * static_cast<double>(i) / 9.0);
   return out;
 }
 
@@ -206,9 +224,10 @@ std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
   const double radius = light.radius * rays_.frame().scale;
   const glm::vec3 center(rays_.frame().to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
   const LocalDisk disk = local_disk(light, rays_.frame());
-  const auto points = middles_of_strata();
+  const auto patterns = interleaved_points();
   const auto look = [&](std::uint32_t pixel) {
     const std::uint32_t at = place_[pixel];
+    const DiskPoints& points = patterns[pixel / width_ % 3 * 3 + pixel % width_ % 3];
     const glm::vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
     const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
     if (!(open > 0.0f)) return 0.0f;

@@ -31,8 +31,9 @@ class CenterRays {
   std::vector<float> first_cut(const DiskLight& light) const;
   /// Visibility of each of the given pixels, all of which see a surface: the disk's fraction above the
   /// horizon, times the share that is seen of sixteen points of equal shares of the disk (of those above).
-  /// The points are the same for all pixels; where one edge crosses the disk they err by .035 (root mean
-  /// square over all chords), at worst by .12. Cost: sixteen rays a pixel, on all cores.
+  /// Nine patterns of points alternate over three by three pixels (interleaved sampling, Keller and Heidrich
+  /// 2001). Where one edge crosses the disk, one pattern errs by .037 (root mean square over all chords; at
+  /// worst by .14), the mean of the nine by .007. Cost: sixteen rays a pixel, on all cores.
   std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
   /// One per pixel: the disk's area fraction above the receiver's horizon, 0 behind the light, 1 where
   /// nothing is seen.
@@ -43,6 +44,7 @@ class CenterRays {
 
   const RayScene& rays_;
   std::size_t pixels_;                ///< of the surface buffer
+  std::uint32_t width_;               ///< of the surface buffer
   std::vector<std::uint32_t> pixel_;  ///< that see a surface, in blocks
   std::vector<std::uint32_t> place_;  ///< of each pixel in pixel_
   std::vector<float> x_, y_, z_, nx_, ny_,

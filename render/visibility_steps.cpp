@@ -12,15 +12,22 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr float kTurned = 0.9f;  // cosine between normals of what still counts as one surface
-constexpr float kApart = 0.5f;   // height above the neighbour's plane over the distance
+constexpr float kTurned = 0.9f;        // cosine between normals of what still counts as one surface
+constexpr float kFlat = 0.998f;        // the same for answers that are put together
+constexpr float kApart = 0.5f;         // height above the neighbour's plane over the distance
+constexpr float kAnswerNoise = 0.08f;  // twice what one answer errs by, as root mean square
+constexpr float kBend = 0.3f;  // between answers on either side of a pixel, or at it, that no noise explains
 
 class Steps {
  public:
   Steps(const ImageSurface& image, std::vector<float>& visibility)
-      : image_(image), visibility_(visibility), share_(visibility.size()), known_(visibility.size(), 0) {
+      : image_(image),
+        visibility_(visibility),
+        share_(visibility.size()),
+        answer_(visibility.size(), kNone),
+        known_(visibility.size(), 0) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, share_.size(), 8192), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) share_[i] = share_of(i);
+      for (std::size_t i = range.begin(); i < range.end(); ++i) share_[i] = share_of(i, visibility_[i]);
     });
   }
 
@@ -28,30 +35,26 @@ class Steps {
   std::vector<std::uint32_t> find() {
     tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
     tbb::parallel_for(tbb::blocked_range<int>(0, image_.height, 16), [&](const auto& rows) {
-      std::vector<std::uint32_t>& part = parts.local();
-      const auto begin = static_cast<std::uint32_t>(rows.begin() * image_.width);
-      const auto end = static_cast<std::uint32_t>(rows.end() * image_.width);
-      for (std::uint32_t i = begin; i < end; ++i)
-        if (is_beside_step(i)) part.push_back(i);
+      for (int y = rows.begin(); y < rows.end(); ++y) find_in_row(y, parts.local());
     });
     std::vector<std::uint32_t> out;
     for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
     std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
     for (const std::uint32_t i : out) known_[i] = 1;
     return out;
   }
 
   /// Takes what was said of the pixels; returns those to be asked next.
   std::vector<std::uint32_t> take(std::span<const std::uint32_t> pixels, std::span<const float> said) {
-    std::vector<std::uint32_t> changed, next;
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-      float& visibility = visibility_[pixels[k]];
-      if (!(std::abs(visibility - said[k]) > kVisibilityStep)) continue;
-      visibility = said[k];
-      share_[pixels[k]] = share_of(pixels[k]);
-      changed.push_back(pixels[k]);
-    }
-    for (const std::uint32_t i : changed) {
+    for (std::size_t k = 0; k < pixels.size(); ++k) answer_[pixels[k]] = said[k];
+    const std::size_t again = last_;
+    last_ = asked_.size();
+    asked_.insert(asked_.end(), pixels.begin(), pixels.end());
+    std::vector<std::uint32_t> next;
+    for (std::size_t k = again; k < asked_.size(); ++k) {
+      const std::uint32_t i = asked_[k];
+      if (!(difference(i, mean_answer(i)) > 1.0f)) continue;
       for_neighbours(i, [&](std::uint32_t j) {
         if (known_[j] || !is_one_surface(i, j)) return;
         known_[j] = 1;
@@ -61,10 +64,59 @@ class Steps {
     return next;
   }
 
+  /// Puts what was said of a pixel and around it in place of what differs from it. Returns how many pixels
+  /// were asked.
+  std::size_t settle() {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, asked_.size(), 512), [&](const auto& range) {
+      for (std::size_t k = range.begin(); k < range.end(); ++k) settle(asked_[k]);
+    });
+    return asked_.size();
+  }
+
  private:
+  static constexpr float kNone = -1.0f;
+
   /// Of what is above the horizon; a sliver of the disk counts as seen.
-  float share_of(std::size_t i) const {
-    return image_.open[i] > 0.05f ? visibility_[i] / image_.open[i] : 1.0f;
+  float share_of(std::size_t i, float visibility) const {
+    return image_.open[i] > 0.05f ? visibility / image_.open[i] : 1.0f;
+  }
+
+  /// What answers around a pixel say, and of how many it is the mean. They count by how much of the disk is
+  /// above their horizon, and in opposite pairs, so that a slope does not shift it.
+  struct Mean {
+    float visibility;
+    int answers;
+  };
+  Mean mean_answer(std::uint32_t i) const {
+    const auto width = static_cast<std::uint32_t>(image_.width);
+    if (i < width || i + width >= answer_.size() || i % width == 0 || i % width == width - 1)
+      return {answer_[i], 1};
+    float seen = answer_[i], open = image_.open[i];
+    int answers = 1;
+    for (const std::uint32_t d : {1u, width - 1, width, width + 1}) {
+      if (answer_[i - d] == kNone || answer_[i + d] == kNone) continue;
+      if (!is_one_surface(i, i - d, kFlat) || !is_one_surface(i, i + d, kFlat)) continue;
+      const float before = answer_[i - d], after = answer_[i + d];
+      if (std::abs(0.5f * (before + after) - answer_[i]) > kBend || std::abs(before - after) > kBend)
+        continue;
+      seen += answer_[i - d] + answer_[i + d];
+      open += image_.open[i - d] + image_.open[i + d];
+      answers += 2;
+    }
+    return {open > 0.0f ? image_.open[i] * seen / open : 0.0f, answers};
+  }
+
+  /// What is said of a pixel and around it against what the entries say, in units of what the answers' noise
+  /// explains.
+  float difference(std::uint32_t i, const Mean& mean) const {
+    return std::abs(mean.visibility - visibility_[i]) * std::sqrt(static_cast<float>(mean.answers)) /
+           kAnswerNoise;
+  }
+
+  void settle(std::uint32_t i) {
+    const Mean mean = mean_answer(i);
+    const float weight = std::clamp(2.0f * difference(i, mean) - 1.0f, 0.0f, 1.0f);
+    visibility_[i] += weight * (mean.visibility - visibility_[i]);
   }
 
   template <class F>
@@ -77,10 +129,16 @@ class Steps {
     if (i + width < visibility_.size()) visit(i + width);
   }
 
-  bool is_beside_step(std::uint32_t i) const {
-    bool any = false;
-    for_neighbours(i, [&](std::uint32_t j) { any = any || is_step(i, j); });
-    return any;
+  /// Both sides of the steps between a row's pixels and to the next row's.
+  void find_in_row(int y, std::vector<std::uint32_t>& out) const {
+    const auto width = static_cast<std::uint32_t>(image_.width);
+    const std::uint32_t begin = static_cast<std::uint32_t>(y) * width, end = begin + width;
+    const auto look = [&](std::uint32_t i, std::uint32_t j) {
+      if (is_step(i, j)) out.insert(out.end(), {i, j});
+    };
+    for (std::uint32_t i = begin; i + 1 < end; ++i) look(i, i + 1);
+    if (y + 1 < image_.height)
+      for (std::uint32_t i = begin; i < end; ++i) look(i, i + width);
   }
 
   /// The next one on the line from i through j; j at the image's border.
@@ -101,16 +159,19 @@ class Steps {
     return is_one_surface(i, j);
   }
 
-  bool is_one_surface(std::uint32_t i, std::uint32_t j) const {
+  bool is_one_surface(std::uint32_t i, std::uint32_t j, float turned = kTurned) const {
     if (image_.positions[i].w == 0.0f || image_.positions[j].w == 0.0f) return false;
     const glm::vec3 n(image_.normals[i]), way(image_.positions[j] - image_.positions[i]);
-    return glm::dot(n, glm::vec3(image_.normals[j])) > kTurned &&
+    return glm::dot(n, glm::vec3(image_.normals[j])) > turned &&
            std::abs(glm::dot(n, way)) <= kApart * glm::length(way);
   }
 
   const ImageSurface& image_;
   std::vector<float>& visibility_;
-  std::vector<float> share_;
+  std::vector<float> share_;   ///< of what is above the horizon, by the entries
+  std::vector<float> answer_;  ///< visibility by rays; kNone where they were not asked
+  std::vector<std::uint32_t> asked_;
+  std::size_t last_ = 0;
   std::vector<char> known_;  ///< asked or about to be
 };
 
@@ -119,12 +180,9 @@ class Steps {
 std::size_t ask_beside_steps(const ImageSurface& image, const AskVisibility& ask,
                              std::vector<float>& visibility) {
   Steps steps(image, visibility);
-  std::size_t count = 0;
-  for (std::vector<std::uint32_t> pixels = steps.find(); !pixels.empty();) {
-    count += pixels.size();
+  for (std::vector<std::uint32_t> pixels = steps.find(); !pixels.empty();)
     pixels = steps.take(pixels, ask(pixels));
-  }
-  return count;
+  return steps.settle();
 }
 
 }  // namespace penumbra::detail

@@ -22,16 +22,17 @@ struct ImageSurface {
   std::span<const float> open;
 };
 
-/// Visibility of the given pixels, in their order.
+/// Visibility of the given pixels, in their order; what neighbours' answers err by is independent.
 using AskVisibility = std::function<std::vector<float>(std::span<const std::uint32_t>)>;
 
-/// More than this between neighbours is a step, and more than this between an answer and what the entries say
-/// makes the answer count; less is noise of the answer or the slope of a narrow penumbra.
+/// More than this between neighbours is a step; less may be the slope of a narrow penumbra.
 inline constexpr float kVisibilityStep = 0.1f;
 
 /// Asks about both sides of every step between neighbours on one surface, and about the neighbours of every
-/// pixel that an answer changed. Returns how many pixels were asked, each once; all of them see a surface.
-/// Cost O(pixels) and the answers, on all cores.
+/// pixel where the answers differ from `visibility` by more than their noise. Where they do, the mean of
+/// those on flat ground around a pixel takes its place, in opposite pairs so that a slope does not shift it;
+/// where they differ by less, only in part, so that no edge shows. Returns how many pixels were asked, each
+/// once; all of them see a surface. Cost O(pixels) and the answers, on all cores.
 std::size_t ask_beside_steps(const ImageSurface& image, const AskVisibility& ask,
                              std::vector<float>& visibility);
 
