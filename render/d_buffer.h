@@ -87,13 +87,14 @@ class DBuffer {
   /// All that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility; the first
   /// three are kept while the light stays as it is. Throws UsageError for a size or entries outside their
   /// range and before set_surface, SystemError where OpenGL fails, Cancelled. Cost O(faces + band + texels +
-  /// pixels), and one or two rays a pixel with CenterTest::kRay, and up to six, mostly one, where entries
-  /// apply with EntryCheck::kRays, and sixteen where entries contradict each other.
+  /// pixels), and one or two rays a pixel with CenterTest::kRay, and sixteen where entries contradict each
+  /// other with EntryCheck::kRays.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
   /// The next frame finds everything anew, though its light be that of the last: for timing.
   void forget_light();
-  /// What the last frame left in the textures of the first target, by number, one grey a number: the first
-  /// surface, penumbra entries, umbra entries before and behind the last surface; none that are empty.
+  /// What the last frame left in the textures of the first target: the first surface, penumbra entries, umbra
+  /// entries before and behind the last surface; none that are empty. First by number, one grey a number,
+  /// then again by depth, what is nearer to the light brighter.
   std::vector<TexturePicture> textures() const;
 
  private:

@@ -118,6 +118,19 @@ class WindowTest : public ProgramTest {
     const std::string command = "DISPLAY=" + display_ + " xdotool " + arguments + " >/dev/null 2>&1";
     return std::system(command.c_str());
   }
+  /// Polls for half a minute until xdotool succeeds.
+  void tool_until(const std::string& arguments, bool succeeds = true) {
+    until("xdotool " + arguments, [&](const Json&) { return (tool(arguments) == 0) == succeeds; });
+  }
+  /// What Ctrl+V would paste elsewhere.
+  std::string clipboard() const {
+    const std::string to = path("clipboard");
+    const std::string command = "DISPLAY=" + display_ + " xclip -selection clipboard -o >'" + to + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << "install xclip";
+    return read_text(to);
+  }
+  /// Minimising is the window manager's.
+  void start_window_manager() { manager_ = Child({"openbox"}, display_, path("openbox")); }
   void key(const std::string& name) const { EXPECT_EQ(tool("key " + name), 0) << "install xdotool"; }
 
   /// Presses at a place, moves by so much, and lets go once `done` holds.
@@ -134,7 +147,7 @@ class WindowTest : public ProgramTest {
   }
 
  private:
-  Child server_, program_;
+  Child server_, manager_, program_;
   std::string display_;
 };
 

@@ -205,6 +205,18 @@ TEST_F(WindowTest, IsResizedHiddenAndShownAgain) {
   settled("another method", [](const Json& s) { return s["method"] == "occlusion-textures"; });
 }
 
+TEST_F(WindowTest, IsMinimisedAndRestored) {
+  start_window_manager();
+  open({kCube, "--size", "320x200"});
+  tool("search --name Penumbra windowminimize");
+  tool_until("search --onlyvisible --name Penumbra", false);
+  tool("search --name Penumbra windowmap");
+  tool_until("search --onlyvisible --name Penumbra");
+  tool("search --name Penumbra windowactivate --sync");
+  key("m");
+  settled("another method", [](const Json& s) { return s["method"] == "occlusion-textures"; });
+}
+
 TEST_F(WindowTest, MiddleDragPansAndDoubleClickLooksAtAPoint) {
   open({kCube, "--size", "320x200"});
   const Json before = status()["camera"];
@@ -240,6 +252,7 @@ TEST_F(WindowTest, CopiedCommandMakesThePicture) {
   const Json now = until(
       "the command", [](const Json& s) { return s["message"].get<std::string>().starts_with("copied: "); });
   const std::string command = now["message"].get<std::string>().substr(8);
+  EXPECT_EQ(clipboard(), command);
   std::filesystem::create_directory(file("elsewhere"));
   const std::string shell = "cd '" + path("elsewhere") + "' && PATH='" PENUMBRA_BIN "':\"$PATH\" " + command;
   ASSERT_EQ(std::system(shell.c_str()), 0) << shell;
