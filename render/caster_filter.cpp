@@ -38,6 +38,7 @@ std::vector<std::uint32_t> triangles_before_hidden(std::span<const glm::vec3> po
     return receivers.least_weight(SupportKind::kUmbra, bounds) != ReceiverGrid::kNone;
   };
   for (const CasterRange& c : casters) {
+    if (c.idle) continue;
     const bool only_fronts = shows_only_fronts(c, axes, offset);
     tbb::parallel_for(c.first_index / 3, (c.first_index + c.index_count) / 3,
                       [&](std::uint32_t i) { needed[i] = needs(i, only_fronts); });

@@ -17,7 +17,8 @@ struct CasterRange {
   std::uint32_t first_face;  ///< number of its first face over all objects of the scene
   std::uint32_t first_index, index_count;
   bool closed;
-  Bounds bounds;  ///< in the frame of the uploaded points
+  Bounds bounds;      ///< in the frame of the uploaded points
+  bool idle = false;  ///< hides nothing from any receiver: not drawn
 };
 
 /// Whether the light's center sees only faces that are turned to it: the caster has an inside and is not cut

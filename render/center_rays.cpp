@@ -41,25 +41,40 @@ LocalDisk local_disk(const DiskLight& light, const RayFrame& frame) {
   return {center.x, center.y, center.z, m.x, m.y, m.z, static_cast<float>(light.radius * frame.scale)};
 }
 
+/// The disk as a receiver's horizon lies across it.
+struct AboveHorizon {
+  float x, y, z;     ///< from the receiver to the center
+  float ux, uy, uz;  ///< up the disk: the receiver's normal without its part along the light's
+  float size;        ///< of that
+  float height;      ///< of the center above the horizon
+  bool behind;       ///< the light
+};
+
+PENUMBRA_INLINE AboveHorizon above_horizon_of(const ReceiverLanes& from, std::size_t k,
+                                              const LocalDisk& disk) {
+  AboveHorizon out;
+  out.x = disk.x - from.x[k], out.y = disk.y - from.y[k], out.z = disk.z - from.z[k];
+  const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
+  const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
+  out.ux = nx - along * disk.mx, out.uy = ny - along * disk.my, out.uz = nz - along * disk.mz;
+  out.size = std::sqrt(out.ux * out.ux + out.uy * out.uy + out.uz * out.uz);
+  out.height = nx * out.x + ny * out.y + nz * out.z;
+  out.behind = out.x * disk.mx + out.y * disk.my + out.z * disk.mz >= 0.0f;
+  return out;
+}
+
 /// Directions to the points aimed at; 0 in `wanted` where no ray is needed.
 PENUMBRA_VECTOR_CLONES
 void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int* wanted) {
   for (std::size_t k = 0; k < kLanes; ++k) {
-    const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
-    const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
-    // Up the disk as seen from this horizon: the normal without its part along the light's.
-    const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
-    const float ux = nx - along * disk.mx, uy = ny - along * disk.my, uz = nz - along * disk.mz;
-    const float size = std::sqrt(ux * ux + uy * uy + uz * uz), reach = disk.radius * size;
-    const float height = nx * x + ny * y + nz * z;  // of the center above the horizon
-    const bool lifted = height <= 0.0f && height + reach > 0.0f;
+    const AboveHorizon seen = above_horizon_of(from, k, disk);
+    const bool lifted = seen.height <= 0.0f && seen.height + disk.radius * seen.size > 0.0f;
     // From the center up to the middle between horizon (-height / size) and top (radius).
-    const float lift = lifted ? 0.5f * (disk.radius - height / size) / size : 0.0f;
-    packet.dir_x[k] = x + lift * ux;
-    packet.dir_y[k] = y + lift * uy;
-    packet.dir_z[k] = z + lift * uz;
-    const float behind = x * disk.mx + y * disk.my + z * disk.mz;
-    wanted[k] = (height > 0.0f || lifted) && behind < 0.0f ? -1 : 0;
+    const float lift = lifted ? 0.5f * (disk.radius - seen.height / seen.size) / seen.size : 0.0f;
+    packet.dir_x[k] = seen.x + lift * seen.ux;
+    packet.dir_y[k] = seen.y + lift * seen.uy;
+    packet.dir_z[k] = seen.z + lift * seen.uz;
+    wanted[k] = (seen.height > 0.0f || lifted) && !seen.behind ? -1 : 0;
   }
 }
 
@@ -67,15 +82,10 @@ void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int
 /// and more where all of the disk is above, -1 behind the light. Heights are of the surface, not of the ray's
 /// origin.
 PENUMBRA_INLINE float horizon_chord(const ReceiverLanes& from, std::size_t k, const LocalDisk& disk) {
-  const float x = disk.x - from.x[k], y = disk.y - from.y[k], z = disk.z - from.z[k];
-  const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
-  const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
-  const float ux = nx - along * disk.mx, uy = ny - along * disk.my, uz = nz - along * disk.mz;
-  const float reach = disk.radius * std::sqrt(ux * ux + uy * uy + uz * uz);
-  const float height = nx * x + ny * y + nz * z + static_cast<float>(kRayOffset);
-  const float behind = x * disk.mx + y * disk.my + z * disk.mz;
+  const AboveHorizon seen = above_horizon_of(from, k, disk);
+  const float reach = disk.radius * seen.size, height = seen.height + static_cast<float>(kRayOffset);
   const float inside = height / std::max(reach, 1e-30f);
-  return behind >= 0.0f ? -1.0f : height >= reach ? 1.0f : inside;
+  return seen.behind ? -1.0f : height >= reach ? 1.0f : inside;
 }
 
 PENUMBRA_VECTOR_CLONES

@@ -13,6 +13,7 @@
 #include "render/d_buffer_passes.h"
 #include "render/d_buffer_shading.h"
 #include "render/gl/state_scope.h"
+#include "render/idle_casters.h"
 #include "render/ray_scene.h"
 #include "volumes/volumes.h"
 
@@ -27,6 +28,8 @@ constexpr double kNarrow = 1.0 / 32.0;
 struct Caster {
   const TriangleMesh* mesh;
   VertexRings rings;
+  detail::CasterPlanes planes;
+  bool idle = false;  ///< hides nothing from any receiver under this frame's light
 };
 
 glm::mat3 light_matrix(const LightFrame& axes) {
@@ -74,6 +77,7 @@ struct DBuffer::Impl {
       return {*caster.mesh, space, b.supports, footprint};
     }
   };
+  void find_idle(const DiskLight& light);
   void choose_view(const DBufferOptions& options, Plan& plan) const;
   void find_outlines(const DiskLight& light, StageClock& clock);
   void find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const;
@@ -128,7 +132,7 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
         for (std::uint32_t v : t) indices.push_back(first_point + v);
       ranges.push_back({first_face, first_index, static_cast<std::uint32_t>(indices.size()) - first_index,
                         mesh.is_closed(), bounds_in_frame});
-      casters.push_back({&mesh, VertexRings(mesh)});
+      casters.push_back({&mesh, VertexRings(mesh), detail::CasterPlanes(mesh, origin, scale)});
     }
     first_face += static_cast<std::uint32_t>(mesh.triangles().size());
   }
@@ -146,8 +150,22 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
     const std::uint32_t face = first_face[static_cast<std::size_t>(surface.object[i])] + surface.face[i] + 1;
     positions[i] = glm::vec4(glm::vec3((surface.position[i] - origin) * scale), static_cast<float>(face));
   }
+  for (Caster& caster : casters) caster.planes.set_receivers(positions);
   shading.set_surface(surface, std::move(positions), rays);
   gl::require_no_error(gl, "uploading the surface buffer");
+}
+
+/// Casters that hide nothing from the image take no part, nor do they widen the target.
+void DBuffer::Impl::find_idle(const DiskLight& light) {
+  const DiskLight in_frame{(light.center - origin) * scale, light.normal, light.radius * scale};
+  std::vector<bool> idle;
+  for (Caster& caster : casters) {
+    const bool is_idle = caster.planes.is_idle(in_frame);
+    if (is_idle != caster.idle) outlined.reset();
+    caster.idle = is_idle;
+    idle.push_back(is_idle);
+  }
+  passes.set_idle(idle);
 }
 
 double DBuffer::Impl::far_weight(const detail::LightSpace& space) const {
@@ -170,6 +188,7 @@ double DBuffer::Impl::far_weight(const detail::LightSpace& space) const {
 detail::UvBounds DBuffer::Impl::caster_window(const detail::LightSpace& space, double far) const {
   detail::UvBounds window;
   for (const Caster& caster : casters) {
+    if (caster.idle) continue;
     std::size_t behind = 0;
     for (const Vec3& world : caster.mesh->positions()) {
       const Vec3 p = space.to_light(world);
@@ -209,7 +228,8 @@ void DBuffer::Impl::find_outlines(const DiskLight& light, StageClock& clock) {
   outlined.reset();
   outlines.assign(casters.size(), {});
   const auto stage = [&](const char* name, const auto& body) {
-    for (std::size_t i = 0; i < casters.size(); ++i) body(*casters[i].mesh, outlines[i]);
+    for (std::size_t i = 0; i < casters.size(); ++i)
+      if (!casters[i].idle) body(*casters[i].mesh, outlines[i]);
     clock.finish(name);
   };
   stage("classify", [&](const TriangleMesh& m, Outline& o) { o.classes = classify_faces(m, light); });
@@ -226,7 +246,8 @@ void DBuffer::Impl::find_outlines(const DiskLight& light, StageClock& clock) {
 void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const {
   for (const Outline& o : outlines) plan.boundaries.push_back({&o, o.supports, {}});
   const auto stage = [&](const char* name, const auto& body) {
-    for (std::size_t i = 0; i < casters.size(); ++i) body(casters[i], plan.boundaries[i]);
+    for (std::size_t i = 0; i < casters.size(); ++i)
+      if (!casters[i].idle) body(casters[i], plan.boundaries[i]);
     clock.finish(name);
   };
   stage("reach", [&](const Caster& c, Boundary& b) {
@@ -246,6 +267,7 @@ void DBuffer::Impl::find_boundaries(const DiskLight& light, Plan& plan, StageClo
 void DBuffer::Impl::find_geometry(Plan& plan) const {
   if (plan.targets.empty()) return;
   for (std::size_t i = 0; i < casters.size(); ++i) {
+    if (casters[i].idle) continue;
     const Boundary& b = plan.boundaries[i];
     const detail::EntryFootprints footprints = plan.footprints(casters[i], b);
     detail::append_entry_geometry({footprints, b.supports, b.outline->gaps, b.reach, plan.receivers},
@@ -308,6 +330,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   Plan plan{space, light_matrix(space.axes), glm::vec3(space.to_light(origin))};
   if (options.center == CenterTest::kRay) shading.trace_center(light);
   clock.finish("center");
+  find_idle(light);
   choose_view(options, plan);
   clock.finish("receivers");
   find_outlines(light, clock);
@@ -322,6 +345,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
       shading.shade(light, plan.view(), plan.receivers, plan.geometry, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
+  frame.counts["idle_casters"] = std::ranges::count_if(casters, &Caster::idle);
   frame.counts["sampled_pixels"] = shading.sampled();
   frame.counts["buffer_size"] = options.size;
   frame.counts["buffer_bytes"] = layers->bytes();

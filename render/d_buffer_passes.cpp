@@ -60,6 +60,10 @@ void DBufferPasses::upload_entries(const EntryGeometry& geometry) {
   umbra_count_ = geometry.umbra.size();
 }
 
+void DBufferPasses::set_idle(const std::vector<bool>& idle) {
+  for (std::size_t i = 0; i < casters_.size(); ++i) casters_[i].idle = idle[i];
+}
+
 void DBufferPasses::set_target(const gl::Program& program, const Target& target) const {
   const glm::mat3 axes(target.axes);
   float window[4];
@@ -86,6 +90,7 @@ void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, co
   set_target(occluder_program_, target);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, caster_indices_);
   for (const CasterRange& caster : casters_) {
+    if (caster.idle) continue;
     if (shows_only_fronts(caster, axes, offset)) gl_.Enable(GL_CULL_FACE);
     gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
     const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) *

@@ -19,6 +19,8 @@ class DBufferPasses {
   /// Casters in a frame of the scene; once.
   void upload_casters(std::vector<glm::vec3> points, std::vector<std::uint32_t> indices,
                       std::vector<CasterRange> casters);
+  /// One flag a caster: those that hide nothing are not drawn.
+  void set_idle(const std::vector<bool>& idle);
   void upload_entries(const EntryGeometry& geometry);
   /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame). Where rays tell
   /// which receivers see the light's center, only what those that do not will read.

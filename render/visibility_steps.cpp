@@ -55,11 +55,12 @@ class Steps {
     return out;
   }
 
-  /// Takes what was said of the pixels; returns those to be asked next.
+  /// Takes what was said of the pixels; returns those to be asked next. The pixels of the time before are
+  /// looked at once more, since now there are answers all around them.
   std::vector<std::uint32_t> take(std::span<const std::uint32_t> pixels, std::span<const float> said) {
     for (std::size_t k = 0; k < pixels.size(); ++k) answer_[pixels[k]] = said[k];
-    const std::size_t again = last_;
-    last_ = asked_.size();
+    const std::size_t again = before_;
+    before_ = asked_.size();
     asked_.insert(asked_.end(), pixels.begin(), pixels.end());
     std::vector<std::uint32_t> next;
     for (std::size_t k = again; k < asked_.size(); ++k) {
@@ -189,7 +190,7 @@ class Steps {
   std::vector<float> share_;   ///< of what is above the horizon, by the entries
   std::vector<float> answer_;  ///< visibility by rays; kNone where they were not asked
   std::vector<std::uint32_t> asked_;
-  std::size_t last_ = 0;
+  std::size_t before_ = 0;   ///< how many were asked before the last time
   std::vector<char> known_;  ///< asked or about to be
 };
 

@@ -1,0 +1,43 @@
+// Casters that hide nothing from any receiver of the image: a floor, a wall, a room seen from inside.
+//
+// A face hides nothing where a plane has it on one side and all of the light and every receiver on the other.
+// Such casters would only widen the D-buffer's targets: a floor that casts spreads the texels over all of it.
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "mesh/triangle_mesh.h"
+#include "volumes/disk_light.h"
+
+namespace penumbra::detail {
+
+/// A caster's faces and the planes that they lie in, if it has few.
+class CasterPlanes {
+ public:
+  /// Vertices are taken as (p - origin) · scale, the frame of everything below. Cost O(1): a mesh of more
+  /// than a hundred faces or of more than sixteen planes is not looked at, and never idle.
+  CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double scale);
+  /// Of the image; the fourth number is 0 where nothing is seen. Cost O(pixels · planes), on all cores.
+  void set_receivers(std::span<const glm::vec4> positions);
+  /// True where every face is separated from the light, given in the frame, and from the receivers, by one of
+  /// the planes. Receivers that lie on a plane, but for half of what rays start off their surface, count as
+  /// being on its far side. Cost O(1).
+  bool is_idle(const DiskLight& light) const;
+
+ private:
+  struct Plane {
+    Vec3 normal;  ///< unit
+    double offset;
+    std::vector<char> behind;  ///< one per face: no point of it is in front
+    double nearest = 0.0;      ///< of the receivers, in front
+    double in_front(const Vec3& p) const;
+  };
+  void add_plane(const std::vector<Vec3>& corners, const Vec3& normal, const Vec3& point);
+
+  std::vector<Plane> planes_;  ///< each twice, once for either orientation; none where there are many
+  std::size_t faces_ = 0;
+};
+
+}  // namespace penumbra::detail
