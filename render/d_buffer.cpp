@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <iterator>
 #include <optional>
 #include <ranges>
 
@@ -375,7 +374,7 @@ std::vector<TexturePicture> DBuffer::Impl::textures() const {
   using detail::EntryKind;
   const auto entries = [&](EntryKind kind) { return layers->layer_of(kind, 0); };
   const struct {
-    std::string name;
+    const char* name;
     const detail::Layer& from;
     int layer;
   } shown[] = {{"first surface", layers->occluder, 0},
@@ -383,7 +382,7 @@ std::vector<TexturePicture> DBuffer::Impl::textures() const {
                {"umbra before", layers->first_entries, entries(EntryKind::kAbove)},
                {"umbra behind", layers->first_entries, entries(EntryKind::kBelow)}};
   const int size = layers->size;
-  std::vector<TexturePicture> identities, distances;
+  std::vector<TexturePicture> pictures;
   std::vector<std::uint32_t> numbers(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   std::vector<float> depths(numbers.size());
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -397,13 +396,12 @@ std::vector<TexturePicture> DBuffer::Impl::textures() const {
     if (std::ranges::all_of(numbers, [](std::uint32_t number) { return number == 0; })) continue;
     TexturePicture picture{each.name, size, {}};
     for (const std::uint32_t number : numbers) picture.values.push_back(grey_of(number));
-    identities.push_back(std::move(picture));
-    distances.push_back({each.name + ", depth", size, greys_of(numbers, depths)});
+    pictures.push_back(std::move(picture));
+    pictures.push_back({"its depth", size, greys_of(numbers, depths)});
   }
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
   gl::require_no_error(gl, "reading the D-buffer");
-  std::ranges::move(distances, std::back_inserter(identities));
-  return identities;
+  return pictures;
 }
 
 DBuffer::DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays) {

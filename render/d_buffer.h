@@ -93,8 +93,8 @@ class DBuffer {
   /// The next frame finds everything anew, though its light be that of the last: for timing.
   void forget_light();
   /// What the last frame left in the textures of the first target: the first surface, penumbra entries, umbra
-  /// entries before and behind the last surface; none that are empty. First by number, one grey a number,
-  /// then again by depth, what is nearer to the light brighter.
+  /// entries before and behind the last surface; none that are empty. Each by number, one grey a number, and
+  /// by depth, what is nearer to the light brighter.
   std::vector<TexturePicture> textures() const;
 
  private:
