@@ -154,12 +154,13 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
   gl::require_no_error(gl, "uploading the surface buffer");
 }
 
-/// Casters that hide nothing from the image take no part, nor do they widen the target.
+/// Casters that hide nothing from the image take no part, nor do they widen the target. Receivers on a floor
+/// are rounded to either side of it, by less than what rays start above it.
 void DBuffer::Impl::find_idle(const DiskLight& light) {
   const DiskLight in_frame{(light.center - origin) * scale, light.normal, light.radius * scale};
   std::vector<bool> idle;
   for (Caster& caster : casters) {
-    const bool is_idle = caster.planes.is_idle(in_frame);
+    const bool is_idle = caster.planes.is_idle(in_frame, 0.5 * kRayOffset);
     if (is_idle != caster.idle) outlined.reset();
     caster.idle = is_idle;
     idle.push_back(is_idle);

@@ -1,13 +1,11 @@
 #include "render/idle_casters.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <limits>
-
-#include "render/ray_scene.h"
 
 namespace penumbra::detail {
 namespace {
@@ -75,14 +73,37 @@ void CasterPlanes::set_receivers(std::span<const glm::vec4> positions) {
   for (std::size_t k = 0; k < planes_.size(); ++k) planes_[k].nearest = nearest[k];
 }
 
-bool CasterPlanes::is_idle(const DiskLight& light) const {
+bool CasterPlanes::is_idle(const DiskLight& light, double slack) const {
   std::vector<char> idle(faces_, 0);
   for (const Plane& plane : planes_) {
-    if (plane.nearest < -0.5 * kRayOffset) continue;
+    if (plane.nearest < -slack) continue;
     if (nearest_of_disk(light, plane.normal, plane.in_front(light.center)) < 0.0) continue;
     for (std::size_t f = 0; f < faces_; ++f) idle[f] = idle[f] || plane.behind[f];
   }
   return !planes_.empty() && std::all_of(idle.begin(), idle.end(), [](char each) { return each != 0; });
+}
+
+std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface) {
+  const DiskLight light{frame.to_local(scene.light.center), scene.light.normal,
+                        scene.light.radius * frame.scale};
+  std::vector<char> idle(scene.objects.size(), 0);
+  std::vector<glm::vec4> receivers;  // when they are needed
+  for (std::size_t k = 0; k < idle.size(); ++k) {
+    if (!scene.objects[k].casts) continue;
+    CasterPlanes planes(scene.objects[k].mesh, frame.origin, frame.scale);
+    if (!planes.is_idle(light)) continue;
+    if (receivers.empty()) {
+      receivers.assign(surface.size(), glm::vec4(0.0f));
+      tbb::parallel_for(std::size_t{0}, surface.size(), [&](std::size_t i) {
+        if (!surface.hit(i)) return;
+        const Vec3 origin = frame.to_local(surface.position[i]) + kRayOffset * surface.normal[i];
+        receivers[i] = glm::vec4(glm::vec3(origin), 1.0f);
+      });
+    }
+    planes.set_receivers(receivers);
+    idle[k] = planes.is_idle(light);
+  }
+  return idle;
 }
 
 }  // namespace penumbra::detail

@@ -1,15 +1,18 @@
 // Casters that hide nothing from any receiver of the image: a floor, a wall, a room seen from inside.
 //
 // A face hides nothing where a plane has it on one side and all of the light and every receiver on the other.
-// Such casters would only widen the D-buffer's targets: a floor that casts spreads the texels over all of it.
+// Such casters would only cost time, and widen the D-buffer's targets: a floor that casts spreads its texels
+// over all of the floor.
 #pragma once
 
 #include <glm/vec4.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "mesh/triangle_mesh.h"
-#include "volumes/disk_light.h"
+#include "render/ray_scene.h"
+#include "render/scene.h"
+#include "render/surface_buffer.h"
 
 namespace penumbra::detail {
 
@@ -22,16 +25,15 @@ class CasterPlanes {
   /// Of the image; the fourth number is 0 where nothing is seen. Cost O(pixels · planes), on all cores.
   void set_receivers(std::span<const glm::vec4> positions);
   /// True where every face is separated from the light, given in the frame, and from the receivers, by one of
-  /// the planes. Receivers that lie on a plane, but for half of what rays start off their surface, count as
-  /// being on its far side. Cost O(1).
-  bool is_idle(const DiskLight& light) const;
+  /// the planes; receivers may lie behind it by `slack`. Before receivers are set there are none. Cost O(1).
+  bool is_idle(const DiskLight& light, double slack = 0.0) const;
 
  private:
   struct Plane {
     Vec3 normal;  ///< unit
     double offset;
-    std::vector<char> behind;  ///< one per face: no point of it is in front
-    double nearest = 0.0;      ///< of the receivers, in front
+    std::vector<char> behind;                                  ///< one per face: no point of it is in front
+    double nearest = std::numeric_limits<double>::infinity();  ///< of the receivers, in front
     double in_front(const Vec3& p) const;
   };
   void add_plane(const std::vector<Vec3>& corners, const Vec3& normal, const Vec3& point);
@@ -39,5 +41,9 @@ class CasterPlanes {
   std::vector<Plane> planes_;  ///< each twice, once for either orientation; none where there are many
   std::size_t faces_ = 0;
 };
+
+/// One flag an object: casters that hide nothing from the receivers, which are moved off their surfaces as
+/// the origins of rays are. Cost O(objects), and O(pixels) where a floor, wall or room casts.
+std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface);
 
 }  // namespace penumbra::detail

@@ -54,6 +54,7 @@ nlohmann::json to_json(const std::vector<StageTime>& stages) {
 nlohmann::json to_json(const SilhouetteCounts& c) {
   return {{"faces", c.faces},
           {"mixed_faces", c.mixed_faces},
+          {"idle_casters", c.idle_casters},
           {"mesh_edges", c.mesh_edges},
           {"band_edges", c.band_edges},
           {"cut_edges", c.cut_edges},

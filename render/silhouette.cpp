@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "mesh/error.h"
+#include "render/idle_casters.h"
 #include "render/ray_scene_impl.h"
 #include "render/reference.h"
 #include "render/silhouette_blocks.h"
@@ -390,7 +391,11 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   StageClock clock;
   const UnitLight light(scene.light);
   Band band;
-  rays.impl().arena.execute([&] { band = make_band(scene, light); });
+  rays.impl().arena.execute([&] {
+    const std::vector<char> idle = find_idle_casters(scene, rays.frame(), surface);
+    out.counts.idle_casters = static_cast<std::size_t>(std::count(idle.begin(), idle.end(), char{1}));
+    band = make_band(scene, light, idle);
+  });
   clock.finish("band");
   const BandTree tree = rays.impl().arena.execute([&] { return BandTree(band); });
   const EdgeBlocks blocks = rays.impl().arena.execute([&] { return EdgeBlocks(band); });

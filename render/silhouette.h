@@ -34,6 +34,7 @@ struct SilhouetteOptions {
 };
 
 struct SilhouetteCounts {
+  std::size_t idle_casters = 0;  ///< that hide nothing from any receiver, and are not among the following
   std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, band_edges = 0, cut_edges = 0;
   std::size_t receivers = 0;  ///< in front of the light, with some of it above the horizon
   std::size_t certified_lit = 0, certified_umbra = 0, behind_light = 0;

@@ -246,12 +246,13 @@ UnitLight::UnitLight(const DiskLight& light)
       up_(light.radius * axes_.v),
       per_radius_(1.0 / light.radius) {}
 
-Band make_band(const Scene& scene, const UnitLight& light) {
+Band make_band(const Scene& scene, const UnitLight& light, std::span<const char> idle) {
   Band band;
   band.extent = extent_of(scene, light);
   std::vector<CasterBand> casters;
-  for (const SceneObject& object : scene.objects) {
-    if (!object.casts || object.mesh.empty()) continue;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    if (!object.casts || object.mesh.empty() || (!idle.empty() && idle[i])) continue;
     casters.emplace_back(object.mesh, scene.light, light);
     band.casters.push_back(casters.back().box());
     band.faces += object.mesh.triangles().size();

@@ -13,6 +13,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "render/large_array.h"
@@ -71,7 +72,8 @@ struct Band {
   std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, cut_edges = 0;
 };
 
-/// Cost O(faces + band edges), on all cores. Deterministic. Requires radius > 0.
-Band make_band(const Scene& scene, const UnitLight& light);
+/// Of all casters but those whose flag in `idle` (one an object, or none) is set. Cost O(faces + band edges),
+/// on all cores. Deterministic. Requires radius > 0.
+Band make_band(const Scene& scene, const UnitLight& light, std::span<const char> idle = {});
 
 }  // namespace penumbra::detail

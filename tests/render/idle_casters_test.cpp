@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "render/d_buffer.h"
+#include "render/silhouette.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {
@@ -19,7 +20,7 @@ TriangleMesh box() {
 bool is_idle(const TriangleMesh& mesh, const DiskLight& light, const std::vector<glm::vec4>& receivers) {
   CasterPlanes planes(mesh, Vec3(0.0), 1.0);
   planes.set_receivers(receivers);
-  return planes.is_idle(light);
+  return planes.is_idle(light, 1e-6);
 }
 
 TEST(IdleCasters, AFloorSeenFromAboveIsOne) {
@@ -54,7 +55,7 @@ TEST(IdleCasters, AMeshOfManyFacesOrPlanesIsNotLookedAt) {
   EXPECT_FALSE(is_idle(TriangleMesh(), above, {{0, 40, 0, 1}}));
 }
 
-TEST(IdleCasters, AFloorThatCastsChangesNothing) {
+TEST(IdleCasters, AFloorThatCastsChangesNothingOfTheDBuffer) {
   const auto context = gl::make_context(gl::Backend::kOsMesa);
   for (const char* name : {"cube-medium", "torus-small", "boxes-large"}) {
     Scene scene = testing::data_scene(name);
@@ -75,6 +76,30 @@ TEST(IdleCasters, AFloorThatCastsChangesNothing) {
     std::size_t differ = 0;
     for (std::size_t i = 0; i < with.size(); ++i) differ += std::abs(with[i] - without[i]) > 1e-3f;
     EXPECT_LE(differ, with.size() / 1000) << name;
+  }
+}
+
+TEST(IdleCasters, AFloorThatCastsChangesNothingOfSilhouettes) {
+  for (const char* name : {"cube-medium", "torus-small", "boxes-large", "foliage-medium"}) {
+    Scene scene = testing::data_scene(name);
+    const auto render = [&] {
+      const testing::View view(scene, 160, 120);
+      return silhouette_visibility(scene, view.rays, view.surface);
+    };
+    const SilhouetteResult without = render();
+    scene.objects.front().casts = true;
+    const SilhouetteResult with = render();
+    EXPECT_EQ(without.counts.idle_casters, 0u) << name;
+    EXPECT_EQ(with.counts.idle_casters, 1u) << name;
+    EXPECT_EQ(with.counts.band_edges, without.counts.band_edges) << name;
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < with.visibility.size(); ++i) {
+      differ += std::abs(with.visibility[i] - without.visibility[i]) > 1e-4f;
+      EXPECT_EQ(with.region[i], without.region[i]) << name << ", pixel " << i;
+    }
+    EXPECT_EQ(differ, 0u) << name;
+    for (std::size_t k = 1; k < scene.objects.size(); ++k) scene.objects[k].casts = false;
+    for (const float v : render().visibility) EXPECT_GE(v, 0.0f) << name << ", the floor alone";
   }
 }
 
