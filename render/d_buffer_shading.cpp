@@ -87,6 +87,7 @@ void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
   first_cut_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
+  lonely_ = lonely_pixels({width_, height_, positions_, normals_, {}});
   cuts_.clear();
 }
 
@@ -206,7 +207,7 @@ void DBufferShading::check(const DiskLight& light, std::vector<float>& visibilit
   const auto ask = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
   };
-  sampled_ = ask_beside_steps({width_, height_, positions_, normals_, open_}, ask, visibility);
+  sampled_ = ask_beside_steps({width_, height_, positions_, normals_, open_}, lonely_, ask, visibility);
 }
 
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the

@@ -67,6 +67,7 @@ class DBufferShading {
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
   std::vector<float> cuts_, open_;
+  std::vector<std::uint32_t> lonely_;  ///< pixels, see lonely_pixels
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
   std::vector<std::unique_ptr<Programs>> programs_;  ///< made when needed

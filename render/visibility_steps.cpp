@@ -28,6 +28,23 @@ bool any_apart(const float* a, const float* b, std::uint32_t count) {
   return any != 0;
 }
 
+template <class F>
+void for_neighbours(const ImageSurface& image, std::uint32_t i, const F& visit) {
+  const auto width = static_cast<std::uint32_t>(image.width);
+  const std::uint32_t x = i % width;
+  if (x > 0) visit(i - 1);
+  if (x + 1 < width) visit(i + 1);
+  if (i >= width) visit(i - width);
+  if (i + width < image.positions.size()) visit(i + width);
+}
+
+bool is_one_surface(const ImageSurface& image, std::uint32_t i, std::uint32_t j, float turned) {
+  if (image.positions[i].w == 0.0f || image.positions[j].w == 0.0f) return false;
+  const glm::vec3 n(image.normals[i]), way(image.positions[j] - image.positions[i]);
+  return glm::dot(n, glm::vec3(image.normals[j])) > turned &&
+         std::abs(glm::dot(n, way)) <= kApart * glm::length(way);
+}
+
 class Steps {
  public:
   Steps(const ImageSurface& image, std::vector<float>& visibility)
@@ -41,13 +58,13 @@ class Steps {
     });
   }
 
-  /// Pixels on either side of a step, in the image's order.
-  std::vector<std::uint32_t> find() {
+  /// Those given and the pixels on either side of a step, in the image's order.
+  std::vector<std::uint32_t> find(std::span<const std::uint32_t> anyway) {
     tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
     tbb::parallel_for(tbb::blocked_range<int>(0, image_.height, 16), [&](const auto& rows) {
       for (int y = rows.begin(); y < rows.end(); ++y) find_in_row(y, parts.local());
     });
-    std::vector<std::uint32_t> out;
+    std::vector<std::uint32_t> out(anyway.begin(), anyway.end());
     for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
@@ -66,7 +83,7 @@ class Steps {
     for (std::size_t k = again; k < asked_.size(); ++k) {
       const std::uint32_t i = asked_[k];
       if (!(difference(i, mean_answer(i)) > 1.0f)) continue;
-      for_neighbours(i, [&](std::uint32_t j) {
+      for_neighbours(image_, i, [&](std::uint32_t j) {
         if (known_[j] || !is_one_surface(i, j)) return;
         known_[j] = 1;
         next.push_back(j);
@@ -130,16 +147,6 @@ class Steps {
     visibility_[i] += weight * (mean.visibility - visibility_[i]);
   }
 
-  template <class F>
-  void for_neighbours(std::uint32_t i, const F& visit) const {
-    const auto width = static_cast<std::uint32_t>(image_.width);
-    const std::uint32_t x = i % width;
-    if (x > 0) visit(i - 1);
-    if (x + 1 < width) visit(i + 1);
-    if (i >= width) visit(i - width);
-    if (i + width < visibility_.size()) visit(i + width);
-  }
-
   /// Both sides of the steps between a row's pixels and to the next row's.
   void find_in_row(int y, std::vector<std::uint32_t>& out) const {
     const auto width = static_cast<std::uint32_t>(image_.width);
@@ -179,10 +186,7 @@ class Steps {
   }
 
   bool is_one_surface(std::uint32_t i, std::uint32_t j, float turned = kTurned) const {
-    if (image_.positions[i].w == 0.0f || image_.positions[j].w == 0.0f) return false;
-    const glm::vec3 n(image_.normals[i]), way(image_.positions[j] - image_.positions[i]);
-    return glm::dot(n, glm::vec3(image_.normals[j])) > turned &&
-           std::abs(glm::dot(n, way)) <= kApart * glm::length(way);
+    return penumbra::detail::is_one_surface(image_, i, j, turned);
   }
 
   const ImageSurface& image_;
@@ -196,10 +200,24 @@ class Steps {
 
 }  // namespace
 
-std::size_t ask_beside_steps(const ImageSurface& image, const AskVisibility& ask,
-                             std::vector<float>& visibility) {
+std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image) {
+  std::vector<char> lonely(image.positions.size());
+  tbb::parallel_for(std::size_t{0}, lonely.size(), [&](std::size_t pixel) {
+    const auto i = static_cast<std::uint32_t>(pixel);
+    int together = 0;
+    for_neighbours(image, i, [&](std::uint32_t j) { together += is_one_surface(image, i, j, kTurned); });
+    lonely[pixel] = image.positions[pixel].w != 0.0f && together < 2;
+  });
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < lonely.size(); ++i)
+    if (lonely[i]) out.push_back(i);
+  return out;
+}
+
+std::size_t ask_beside_steps(const ImageSurface& image, std::span<const std::uint32_t> anyway,
+                             const AskVisibility& ask, std::vector<float>& visibility) {
   Steps steps(image, visibility);
-  for (std::vector<std::uint32_t> pixels = steps.find(); !pixels.empty();)
+  for (std::vector<std::uint32_t> pixels = steps.find(anyway); !pixels.empty();)
     pixels = steps.take(pixels, ask(pixels));
   return steps.settle();
 }
