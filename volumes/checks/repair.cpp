@@ -90,12 +90,14 @@ class Repairer {
     std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
     for (std::uint32_t i = 0; i < faces.size(); ++i) groups[root(i)].push_back(faces[i]);
     std::vector<std::vector<std::uint32_t>> result;
+    result.reserve(groups.size());
     for (auto& [r, group] : groups) result.push_back(std::move(group));
     return result;
   }
 
   std::vector<IndexedTriangle> triangles_of(const std::vector<std::uint32_t>& faces) const {
     std::vector<IndexedTriangle> result;
+    result.reserve(faces.size());
     for (const std::uint32_t f : faces) result.push_back(input_[f]);
     return result;
   }
