@@ -3,9 +3,9 @@
 // In a D-buffer a texel holds one entry a kind. Where two boundaries compete, receivers side by side read
 // different ones, and their visibilities differ by a step. But visibility is continuous on a surface, except
 // where something touches it; so a step says where entries are wrong, and what rays say of its pixels is
-// carried on from neighbour to neighbour until it agrees with what entries say. Neighbours ask different points
-// of the light, so that the mean of their answers has little noise (interleaved sampling, A. Keller and W.
-// Heidrich 2001).
+// carried on from neighbour to neighbour until it agrees with what entries say. Neighbours ask different
+// points of the light, so that the mean of their answers has little noise (interleaved sampling, A. Keller
+// and W. Heidrich 2001).
 #pragma once
 
 #include <cstdint>
