@@ -135,7 +135,6 @@ struct Packet {
 }  // namespace
 
 CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
-
     : rays_(rays),
       pixels_(surface.size()),
       width_(static_cast<std::uint32_t>(surface.width)),

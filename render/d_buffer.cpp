@@ -5,11 +5,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
-#include <ranges>
 
 #include "mesh/error.h"
 #include "mesh/vertex_rings.h"
 #include "render/d_buffer_passes.h"
+#include "render/d_buffer_pictures.h"
 #include "render/d_buffer_shading.h"
 #include "render/gl/state_scope.h"
 #include "render/idle_casters.h"
@@ -353,56 +353,10 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   return frame;
 }
 
-/// Numbers differ from their neighbours' by a grey that can be told apart; 0 stays 0.
-std::uint8_t grey_of(std::uint32_t number) {
-  return number ? static_cast<std::uint8_t>(56u + (number * 2654435761u >> 16) % 200u) : std::uint8_t{0};
-}
-
-/// Depths where there is a number, the nearest to the light white.
-std::vector<std::uint8_t> greys_of(std::span<const std::uint32_t> numbers, std::span<const float> depths) {
-  float low = 1.0f, high = 0.0f;
-  for (std::size_t i = 0; i < depths.size(); ++i)
-    if (numbers[i]) low = std::min(low, depths[i]), high = std::max(high, depths[i]);
-  std::vector<std::uint8_t> out(depths.size(), 0);
-  const float scale = 199.0f / std::max(high - low, 1e-6f);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    if (numbers[i]) out[i] = static_cast<std::uint8_t>(255.0f - scale * (depths[i] - low));
-  return out;
-}
-
 std::vector<TexturePicture> DBuffer::Impl::textures() const {
   if (!layers) return {};
-  using detail::EntryKind;
-  const auto entries = [&](EntryKind kind) { return layers->layer_of(kind, 0); };
-  const struct {
-    const char* name;
-    const detail::Layer& from;
-    int layer;
-  } shown[] = {{"first surface", layers->occluder, 0},
-               {"penumbra", layers->first_entries, entries(EntryKind::kPenumbra)},
-               {"umbra before", layers->first_entries, entries(EntryKind::kAbove)},
-               {"umbra behind", layers->first_entries, entries(EntryKind::kBelow)}};
-  const int size = layers->size;
-  std::vector<TexturePicture> pictures;
-  std::vector<std::uint32_t> numbers(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-  std::vector<float> depths(numbers.size());
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  for (const auto& each : shown) {
-    gl.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, each.from.id.texture, 0, each.layer);
-    gl.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, each.from.depth.texture, 0, each.layer);
-    gl.ReadBuffer(GL_COLOR_ATTACHMENT0);
-    gl.ReadPixels(0, 0, size, size, GL_RED_INTEGER, GL_UNSIGNED_INT, numbers.data());
-    gl.ReadPixels(0, 0, size, size, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-    // The first surface is not drawn for every option.
-    if (std::ranges::all_of(numbers, [](std::uint32_t number) { return number == 0; })) continue;
-    TexturePicture picture{each.name, size, {}};
-    for (const std::uint32_t number : numbers) picture.values.push_back(grey_of(number));
-    pictures.push_back(std::move(picture));
-    pictures.push_back({"its depth", size, greys_of(numbers, depths)});
-  }
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
-  gl::require_no_error(gl, "reading the D-buffer");
-  return pictures;
+  return detail::pictures_of(gl, *layers);
 }
 
 DBuffer::DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays) {

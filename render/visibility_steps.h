@@ -35,11 +35,11 @@ inline constexpr float kVisibilityStep = 0.1f;
 std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image);
 
 /// Asks about the pixels in `anyway` (ascending), about both sides of every step between neighbours on one
-/// surface, and about the neighbours of every
-/// pixel where the answers differ from `visibility` by more than their noise. Where they do, the mean of
-/// those on flat ground around a pixel takes its place, in opposite pairs so that a slope does not shift it;
-/// where they differ by less, only in part, so that no edge shows. Returns how many pixels were asked, each
-/// once; all of them see a surface. Cost O(pixels) and the answers, on all cores.
+/// surface, and about the neighbours of every pixel where the answers differ from `visibility` by more than
+/// their noise. Where they do, the mean of those on flat ground around a pixel takes its place, in opposite
+/// pairs so that a slope does not shift it; where they differ by less, only in part, so that no edge shows.
+/// Returns how many pixels were asked, each once; all of them see a surface. Cost O(pixels) and the answers,
+/// on all cores.
 std::size_t ask_beside_steps(const ImageSurface& image, std::span<const std::uint32_t> anyway,
                              const AskVisibility& ask, std::vector<float>& visibility);
 
