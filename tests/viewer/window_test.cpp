@@ -206,13 +206,16 @@ TEST_F(WindowTest, IsResizedHiddenAndShownAgain) {
 }
 
 TEST_F(WindowTest, IsMinimisedAndRestored) {
-  start_window_manager();
   open({kCube, "--size", "320x200"});
-  tool("search --name Penumbra windowminimize");
-  tool_until("search --onlyvisible --name Penumbra", false);
-  tool("search --name Penumbra windowmap");
-  tool_until("search --onlyvisible --name Penumbra");
-  tool("search --name Penumbra windowactivate --sync");
+  start_window_manager();
+  until("the window minimised", [&](const Json&) {  // asked again until the window manager listens
+    tool("search --name Penumbra windowminimize");
+    return tool("search --onlyvisible --name Penumbra") != 0;
+  });
+  until("the window restored", [&](const Json&) {
+    tool("search --name Penumbra windowmap");
+    return tool("search --onlyvisible --name Penumbra windowactivate --sync") == 0;
+  });
   key("m");
   settled("another method", [](const Json& s) { return s["method"] == "occlusion-textures"; });
 }
