@@ -5,7 +5,7 @@
 // "Umbra and penumbra volumes" (2004), section 2.1, takes the planes through the umbra silhouette that touch
 // the disk with caster and disk on one side. For a convex body the umbra is the intersection of those
 // half-spaces *and* of those below every face that looks at some of the disk: without these caps it is too
-// large. No cones are needed. Intersected exactly (CGAL's convex hulls in the dual), every plane through
+// large. No cones are needed. Intersected exactly (a convex hull in the dual), every plane through
 // vertices of the caster as they are, so that facets meet where they should; only the points where planes
 // touch the disk, and the resulting vertices, are rounded.
 //
@@ -27,7 +27,7 @@ namespace penumbra {
 /// kUmbraCap (source: face), kFarCap where it is cut off beyond the bound, and kCell for all of a kernel's
 /// but its far caps; source of the last two: the component's first face. The bodies themselves count as
 /// umbra. Deterministic. Throws UsageError for options outside their domain, Cancelled. Expected cost O(F log
-/// F) a body, in exact arithmetic: about 0.1 ms a face.
+/// F) a body, in exact arithmetic: about 0.015 ms a face, bodies on all cores.
 ShadowMesh convex_umbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
                         const ExtrudeOptions& options = {});
 

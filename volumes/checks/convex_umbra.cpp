@@ -1,7 +1,10 @@
 #include "volumes/convex_umbra.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "mesh/error.h"
 #include "volumes/checks/half_spaces.h"
@@ -20,6 +23,8 @@ using detail::HalfSpace;
 using detail::HalfSpaceCell;
 using detail::SolidKind;
 using detail::SolidShape;
+
+constexpr std::size_t kComponentsPerStep = 256;  // between two calls of progress
 
 /// The half-spaces whose intersection is one body's umbra, and where each comes from.
 struct UmbraBounds {
@@ -125,10 +130,13 @@ class UmbraExtruder {
 
   ShadowMesh run() {
     const std::span<const Component> components = mesh_.components();
+    std::vector<Piece> pieces(components.size());
     bool exact = components.size() == 1;
-    for (std::size_t i = 0; i < components.size(); ++i) {
-      exact = add_umbra_of(components[i]) && exact;
-      const double fraction = static_cast<double>(i + 1) / static_cast<double>(components.size());
+    for (std::size_t begin = 0, end = 0; begin < components.size(); begin = end) {
+      end = std::min(components.size(), begin + kComponentsPerStep);
+      tbb::parallel_for(begin, end, [&](std::size_t i) { pieces[i] = umbra_of(components[i]); });
+      for (std::size_t i = begin; i < end; ++i) exact = append(std::exchange(pieces[i], {})) && exact;
+      const double fraction = static_cast<double>(end) / static_cast<double>(components.size());
       if (options_.progress && !options_.progress(fraction)) throw Cancelled();
     }
     result_.guarantee = exact ? Guarantee::kExact : Guarantee::kContained;
@@ -136,17 +144,20 @@ class UmbraExtruder {
   }
 
  private:
-  /// True where the component's whole umbra was added.
-  bool add_umbra_of(const Component& component) {
-    if (!is_in_front(component)) return false;
+  /// A component's part of the umbra.
+  struct Piece {
+    HalfSpaceCell cell;
+    std::vector<ShadowTag> tags;  ///< per half-space
+    bool whole = false;           ///< all that the component hides
+  };
+
+  Piece umbra_of(const Component& component) const {
+    if (!is_in_front(component)) return {};
     const SolidShape shape = detail::shape_of_solid(mesh_, component);
-    if (shape.kind == SolidKind::kOther) return false;
-    if (shape.kind == SolidKind::kStarShaped) {
-      add_umbra_of_kernel(component, shape.inside);
-      return false;
-    }
-    const UmbraBounds bounds = UmbraOfBody(mesh_, component, light_, classes_, reach_).bounds(shape.inside);
-    return append(detail::intersect_half_spaces(bounds.half_spaces, shape.inside), bounds.tags);
+    if (shape.kind == SolidKind::kOther) return {};
+    if (shape.kind == SolidKind::kStarShaped) return umbra_of_kernel(component, shape.inside);
+    UmbraBounds bounds = UmbraOfBody(mesh_, component, light_, classes_, reach_).bounds(shape.inside);
+    return {detail::intersect_half_spaces(bounds.half_spaces, shape.inside), std::move(bounds.tags), true};
   }
 
   bool is_in_front(const Component& component) const {
@@ -158,11 +169,11 @@ class UmbraExtruder {
     });
   }
 
-  void add_umbra_of_kernel(const Component& component, const std::array<Vec3, 4>& inside) {
+  Piece umbra_of_kernel(const Component& component, const std::array<Vec3, 4>& inside) const {
     const TriangleMesh kernel = kernel_of(component, inside);
-    if (kernel.components().size() != 1 || !is_in_front_whole(kernel)) return;
+    if (kernel.components().size() != 1 || !is_in_front_whole(kernel)) return {};
     const SolidShape shape = detail::shape_of_solid(kernel, kernel.components().front());
-    if (shape.kind != SolidKind::kConvex) return;
+    if (shape.kind != SolidKind::kConvex) return {};
     const Classification classes = classify_faces(kernel, light_);
     UmbraBounds bounds =
         UmbraOfBody(kernel, kernel.components().front(), light_, classes, reach_).bounds(shape.inside);
@@ -170,7 +181,7 @@ class UmbraExtruder {
       if (tag.kind != ShadowKind::kFarCap) tag.kind = ShadowKind::kCell;
       tag.source = static_cast<std::uint32_t>(component.faces.front());
     }
-    append(detail::intersect_half_spaces(bounds.half_spaces, shape.inside), bounds.tags);
+    return {detail::intersect_half_spaces(bounds.half_spaces, shape.inside), std::move(bounds.tags), false};
   }
 
   bool is_in_front_whole(const TriangleMesh& kernel) const {
@@ -193,18 +204,20 @@ class UmbraExtruder {
     return TriangleMesh::build(cell.positions, detail::convex_hull(cell.positions));
   }
 
-  bool append(const HalfSpaceCell& cell, const std::vector<ShadowTag>& tags) {
+  /// True where nothing of the umbra is missing.
+  bool append(const Piece& piece) {
+    const HalfSpaceCell& cell = piece.cell;
     if (cell.triangles.empty()) return false;
     const auto first = static_cast<std::uint32_t>(result_.positions.size());
     result_.positions.insert(result_.positions.end(), cell.positions.begin(), cell.positions.end());
     for (std::size_t i = 0; i < cell.triangles.size(); ++i) {
       const IndexedTriangle& t = cell.triangles[i];
       result_.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      result_.tags.push_back(tags[cell.half_spaces[i]]);
+      result_.tags.push_back(piece.tags[cell.half_spaces[i]]);
       result_.tags.back().object = options_.object;
     }
     ++result_.cells;
-    return true;
+    return piece.whole;
   }
 
   const TriangleMesh& mesh_;

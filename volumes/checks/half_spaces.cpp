@@ -1,78 +1,138 @@
 #include "volumes/checks/half_spaces.h"
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/convex_hull_3.h>
+#include <CGAL/Gmpq.h>
+#include <CGAL/Interval_nt.h>
+#include <CGAL/Mpzf.h>
+#include <CGAL/determinant.h>
 
+#include <algorithm>
 #include <map>
 #include <tuple>
+
+#include "volumes/detail/predicate_forms.h"
+#include "volumes/detail/quickhull.h"
 
 namespace penumbra::detail {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Number = Kernel::FT;
-using Point = Kernel::Point_3;
-using Vector = Kernel::Vector_3;
-using Hull = CGAL::Surface_mesh<Point>;
+using Interval = CGAL::Interval_nt<false>;  // "false": the rounding mode is set once a predicate
+using RoundUpwards = CGAL::Protect_FPU_rounding<true>;
+#ifdef CGAL_HAS_MPZF
+using Exact = CGAL::Mpzf;  // sums and products alone: no divisors are sought, unlike in fractions
+#else
+using Exact = CGAL::Gmpq;
+#endif
 
-/// normal · x ≤ offset, x counted from the inside point.
+/// n·y ≤ d with d > 0, y being four times the way from the inside point: dual to the point n/d.
 struct Plane {
-  Vector normal;
-  Number offset;
+  std::array<Exact, 4> exact;  ///< n, then d
+  std::array<Interval, 4> bounds;
+  Vec3 dual;  ///< rounded
 };
 
-Point exact(const Vec3& p) {
-  return {p.x, p.y, p.z};
+Triple<Exact> exact(const Vec3& p) {
+  return {Exact(p.x), Exact(p.y), Exact(p.z)};
 }
 
-/// By the exact value: rounding a lazy number is good to 1e-5 only.
-double rounded(const Number& x) {
-  return CGAL::to_double(CGAL::exact(x));
+double rounded_quotient(const Exact& numerator, const Exact& denominator) {
+  return CGAL::to_double(CGAL::Gmpq(numerator) / CGAL::Gmpq(denominator));
 }
 
-/// About the inside point a plane n·x = d is dual to the point n/d: the convex hull of the dual points has a
+/// The rows' determinant. With rows (n, d) and all d positive its sign is that of the dual points' rows
+/// (n/d, 1), which is the opposite of their orient3d.
+template <class T>
+T determinant(const std::array<T, 4>& a, const std::array<T, 4>& b, const std::array<T, 4>& c,
+              const std::array<T, 4>& d) {
+  return CGAL::determinant(a[0], a[1], a[2], a[3], b[0], b[1], b[2], b[3], c[0], c[1], c[2], c[3], d[0], d[1],
+                           d[2], d[3]);
+}
+
+/// The dual points as Quickhull wants them.
+class DualPoints {
+ public:
+  /// False where the inside point is not strictly below.
+  bool add(const HalfSpace& h, const Triple<Exact>& four_origins) {
+    const Triple<Exact> a = exact(h[0]);
+    const auto normal = cross(differences(h[1], a), differences(h[2], a));
+    const Exact four(4);
+    const Triple<Exact> way{four * a.x - four_origins.x, four * a.y - four_origins.y,
+                            four * a.z - four_origins.z};
+    const Exact offset = dot(normal, way);
+    if (CGAL::sign(offset) != CGAL::POSITIVE) return false;
+    Plane plane{.exact = {normal.x, normal.y, normal.z, offset}, .bounds = {}, .dual = {}};
+    std::transform(plane.exact.begin(), plane.exact.end(), plane.bounds.begin(),
+                   [](const Exact& x) { return Interval(CGAL::to_interval(x)); });
+    for (int k = 0; k < 3; ++k) plane.dual[k] = rounded_quotient(plane.exact[k], offset);
+    planes_.push_back(std::move(plane));
+    return true;
+  }
+
+  const Plane& plane(std::uint32_t i) const { return planes_[i]; }
+
+  int count() const { return static_cast<int>(planes_.size()); }
+  const Vec3& rounded(int i) const { return planes_[i].dual; }
+  Sign orient3d(int a, int b, int c, int d) const {
+    const Plane &p = planes_[a], &q = planes_[b], &r = planes_[c], &s = planes_[d];
+    const auto opposite = [](CGAL::Sign sign) { return static_cast<Sign>(-static_cast<int>(sign)); };
+    {
+      const RoundUpwards protect;
+      const auto sign = CGAL::sign(determinant(p.bounds, q.bounds, r.bounds, s.bounds));
+      if (sign.is_certain()) return opposite(sign.make_certain());
+    }
+    return opposite(CGAL::sign(determinant(p.exact, q.exact, r.exact, s.exact)));
+  }
+  /// Rows of rank 2 at most: every minor of three columns vanishes.
+  bool collinear(int a, int b, int c) const {
+    const auto &p = planes_[a].exact, &q = planes_[b].exact, &r = planes_[c].exact;
+    for (int left_out = 0; left_out < 4; ++left_out) {
+      const int i = left_out == 0, j = left_out <= 1 ? 2 : 1, k = left_out == 3 ? 2 : 3;
+      if (!CGAL::is_zero(CGAL::determinant(p[i], p[j], p[k], q[i], q[j], q[k], r[i], r[j], r[k])))
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  static Triple<Exact> differences(const Vec3& p, const Triple<Exact>& a) {
+    return {Exact(p.x) - a.x, Exact(p.y) - a.y, Exact(p.z) - a.z};
+  }
+
+  std::vector<Plane> planes_;
+};
+
+/// About the inside point a plane n·y = d is dual to the point n/d: the convex hull of the dual points has a
 /// vertex for each plane that bounds the intersection, and a facet for each corner of it.
 class DualHull {
  public:
-  DualHull(std::span<const HalfSpace> half_spaces, const std::array<Vec3, 4>& inside)
-      : origin_(CGAL::centroid(exact(inside[0]), exact(inside[1]), exact(inside[2]), exact(inside[3]))) {
-    for (const HalfSpace& h : half_spaces) {
-      const Point a = exact(h[0]);
-      const Vector normal = CGAL::cross_product(exact(h[1]) - a, exact(h[2]) - a);
-      planes_.push_back({normal, normal * (a - origin_)});
+  HalfSpaceCell run(std::span<const HalfSpace> half_spaces, const std::array<Vec3, 4>& inside) {
+    for (const Vec3& p : inside) {
+      const Triple<Exact> x = exact(p);
+      four_origins_ = {four_origins_.x + x.x, four_origins_.y + x.y, four_origins_.z + x.z};
     }
-  }
-
-  HalfSpaceCell run() {
-    std::vector<Point> duals;
-    for (std::uint32_t i = 0; i < planes_.size(); ++i) {
-      const Plane& plane = planes_[i];
-      if (!(plane.offset > 0)) return {};
-      const Vector dual = plane.normal / plane.offset;
-      duals.push_back(CGAL::ORIGIN + dual);
-      plane_of_.try_emplace(duals.back(), i);
-    }
-    CGAL::convex_hull_3(duals.begin(), duals.end(), hull_);
+    for (const HalfSpace& h : half_spaces)
+      if (!points_.add(h, four_origins_)) return {};
+    facets_ = Quickhull(points_).run();
     number_corners();
-    for (const Hull::Vertex_index v : hull_.vertices()) add_facet(v);
+    link();
+    for (std::uint32_t v = 0; v < half_spaces.size(); ++v)
+      if (const auto first = around_.lower_bound({v, 0}); first != around_.end() && first->first[0] == v)
+        add_facet(v, first->second);
     return std::move(cell_);
   }
 
  private:
-  std::uint32_t plane_at(Hull::Vertex_index v) const { return plane_of_.at(hull_.point(v)); }
-
   /// Where three planes meet, by Cramer's rule.
-  Vec3 corner(Hull::Face_index f) const {
-    const Hull::Halfedge_index h = hull_.halfedge(f);
-    const Plane &p = planes_[plane_at(hull_.target(h))], &q = planes_[plane_at(hull_.target(hull_.next(h)))],
-                &r = planes_[plane_at(hull_.source(h))];
-    const Vector qr = CGAL::cross_product(q.normal, r.normal), rp = CGAL::cross_product(r.normal, p.normal),
-                 pq = CGAL::cross_product(p.normal, q.normal);
-    const Vector sum = p.offset * qr + q.offset * rp + r.offset * pq;
-    const Point x = origin_ + sum / (p.normal * qr);
-    return {rounded(x.x()), rounded(x.y()), rounded(x.z())};
+  Vec3 corner(const IndexedTriangle& t) const {
+    const auto &p = points_.plane(t[0]).exact, &q = points_.plane(t[1]).exact, &r = points_.plane(t[2]).exact;
+    const Triple<Exact> n[3] = {{p[0], p[1], p[2]}, {q[0], q[1], q[2]}, {r[0], r[1], r[2]}};
+    const auto qr = cross(n[1], n[2]), rp = cross(n[2], n[0]), pq = cross(n[0], n[1]);
+    const Exact whole = dot(n[0], qr), four_wholes = Exact(4) * whole;
+    const auto coordinate = [&](const Exact& origin, const Exact& x, const Exact& y, const Exact& z) {
+      return rounded_quotient(origin * whole + p[3] * x + q[3] * y + r[3] * z, four_wholes);
+    };
+    return {coordinate(four_origins_.x, qr.x, rp.x, pq.x), coordinate(four_origins_.y, qr.y, rp.y, pq.y),
+            coordinate(four_origins_.z, qr.z, rp.z, pq.z)};
   }
 
   /// Facets of one corner's plane, and corners that round to the same doubles, are one corner.
@@ -81,39 +141,44 @@ class DualHull {
       return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
     };
     std::map<Vec3, std::uint32_t, decltype(less)> numbers(less);
-    number_.resize(hull_.number_of_faces());
-    for (const Hull::Face_index f : hull_.faces()) {
-      const Vec3 x = corner(f);
+    for (const IndexedTriangle& t : facets_) {
+      const Vec3 x = corner(t);
       const auto [at, is_new] = numbers.try_emplace(x, static_cast<std::uint32_t>(cell_.positions.size()));
       if (is_new) cell_.positions.push_back(x);
-      number_[f] = at->second;
+      number_.push_back(at->second);
     }
+  }
+
+  /// By side of the dual hull, from one plane to the next, the facet to its left.
+  void link() {
+    for (std::uint32_t f = 0; f < facets_.size(); ++f)
+      for (int k = 0; k < 3; ++k) around_[{facets_[f][k], facets_[f][(k + 1) % 3]}] = f;
   }
 
   /// The corners around a plane, counter-clockwise, as a fan. A corner that repeats makes a triangle without
   /// sides, whose half-edges match each other: it is left out.
-  void add_facet(Hull::Vertex_index v) {
+  void add_facet(std::uint32_t v, std::uint32_t first) {
     std::vector<std::uint32_t> corners;
-    const Hull::Halfedge_index first = hull_.halfedge(v);
-    Hull::Halfedge_index h = first;
+    std::uint32_t f = first;
     do {
-      const std::uint32_t n = number_[hull_.face(h)];
+      const std::uint32_t n = number_[f];
       if (corners.empty() || corners.back() != n) corners.push_back(n);
-      h = hull_.prev(hull_.opposite(h));
-    } while (h != first);
+      const IndexedTriangle& t = facets_[f];
+      f = around_.at({v, t[0] == v ? t[2] : t[1] == v ? t[0] : t[1]});
+    } while (f != first);
     while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
     for (std::size_t k = 2; k < corners.size(); ++k) {
       if (corners[0] == corners[k - 1] || corners[0] == corners[k]) continue;
       cell_.triangles.push_back({corners[0], corners[k - 1], corners[k]});
-      cell_.half_spaces.push_back(plane_at(v));
+      cell_.half_spaces.push_back(v);
     }
   }
 
-  Point origin_;
-  std::vector<Plane> planes_;
-  std::map<Point, std::uint32_t> plane_of_;
-  Hull hull_;
+  Triple<Exact> four_origins_{Exact(0), Exact(0), Exact(0)};
+  DualPoints points_;
+  std::vector<IndexedTriangle> facets_;
   std::vector<std::uint32_t> number_;
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> around_;
   HalfSpaceCell cell_;
 };
 
@@ -121,7 +186,7 @@ class DualHull {
 
 HalfSpaceCell intersect_half_spaces(std::span<const HalfSpace> half_spaces,
                                     const std::array<Vec3, 4>& inside) {
-  return DualHull(half_spaces, inside).run();
+  return DualHull().run(half_spaces, inside);
 }
 
 }  // namespace penumbra::detail

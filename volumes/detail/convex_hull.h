@@ -1,6 +1,4 @@
-// Convex hull of points in space, combinatorially exact: quickhull (Barber, Dobkin, Huhdanpaa, "The quickhull
-// algorithm for convex hulls", 1996) with every sign from orient3d, so that coplanar and nearly coplanar
-// points need no tolerance.
+// Convex hull of points in space, combinatorially exact.
 #pragma once
 
 #include <span>
