@@ -83,24 +83,37 @@ bool CasterPlanes::is_idle(const DiskLight& light, double slack) const {
   return !planes_.empty() && std::all_of(idle.begin(), idle.end(), [](char each) { return each != 0; });
 }
 
+namespace {
+
+/// Every `step`-th pixel's, as CasterPlanes takes them.
+std::vector<glm::vec4> ray_origins(const RayFrame& frame, const SurfaceBuffer& surface, std::size_t step) {
+  std::vector<glm::vec4> out((surface.size() + step - 1) / step, glm::vec4(0.0f));
+  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t k) {
+    const std::size_t i = k * step;
+    if (!surface.hit(i)) return;
+    const Vec3 origin = frame.to_local(surface.position[i]) + kRayOffset * surface.normal[i];
+    out[k] = glm::vec4(glm::vec3(origin), 1.0f);
+  });
+  return out;
+}
+
+}  // namespace
+
 std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface) {
+  constexpr std::size_t kSome = 1009;  // shares no factor with an image's width
   const DiskLight light{frame.to_local(scene.light.center), scene.light.normal,
                         scene.light.radius * frame.scale};
   std::vector<char> idle(scene.objects.size(), 0);
-  std::vector<glm::vec4> receivers;  // when they are needed
+  std::vector<glm::vec4> some, all;  // when they are needed
   for (std::size_t k = 0; k < idle.size(); ++k) {
     if (!scene.objects[k].casts) continue;
     CasterPlanes planes(scene.objects[k].mesh, frame.origin, frame.scale);
     if (!planes.is_idle(light)) continue;
-    if (receivers.empty()) {
-      receivers.assign(surface.size(), glm::vec4(0.0f));
-      tbb::parallel_for(std::size_t{0}, surface.size(), [&](std::size_t i) {
-        if (!surface.hit(i)) return;
-        const Vec3 origin = frame.to_local(surface.position[i]) + kRayOffset * surface.normal[i];
-        receivers[i] = glm::vec4(glm::vec3(origin), 1.0f);
-      });
-    }
-    planes.set_receivers(receivers);
+    if (some.empty()) some = ray_origins(frame, surface, kSome);
+    planes.set_receivers(some);  // rules most casters out at little cost
+    if (!planes.is_idle(light)) continue;
+    if (all.empty()) all = ray_origins(frame, surface, 1);
+    planes.set_receivers(all);
     idle[k] = planes.is_idle(light);
   }
   return idle;
