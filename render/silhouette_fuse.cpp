@@ -170,10 +170,9 @@ Fused Fuser::by_rows(const Cut& cut, const DiskPart& part, int rows) {
   return {std::clamp(area, 0.0, part.area()), sums.levels, sums.aims, Fusion::kRows};
 }
 
-Fused Fuser::fuse(const Cut& cut, const DiskPart& part, int rows) {
-  Fused out;
-  if (fuse_chain(cut, part, out)) return out;
-  return cut.segments.size() <= kMostForSlabs ? by_slabs(cut, part) : by_rows(cut, part, rows);
+void Fuser::fuse(const Cut& cut, const DiskPart& part, int rows, Fused& out) {
+  if (fuse_chain(cut, part, out)) return;
+  out = cut.segments.size() <= kMostForSlabs ? by_slabs(cut, part) : by_rows(cut, part, rows);
 }
 
 }  // namespace penumbra::detail

@@ -38,9 +38,9 @@ struct Fused {
 /// For one receiver after the other, with memory kept between them.
 class Fuser {
  public:
-  /// `rows`: how many where there are many segments. Cost for s segments: s for a chain, s² for slabs; of
-  /// rows see silhouette_rows.h.
-  Fused fuse(const Cut& cut, const DiskPart& part, int rows);
+  /// Into `out`, all of it. `rows`: how many where there are many segments. Cost for s segments: s for a
+  /// chain, s² for slabs; of rows see silhouette_rows.h.
+  void fuse(const Cut& cut, const DiskPart& part, int rows, Fused& out);
 
   Fused by_slabs(const Cut& cut, const DiskPart& part);
   Fused by_rows(const Cut& cut, const DiskPart& part, int rows);

@@ -74,7 +74,12 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
     cross_boundary(a, -s.jump);
     cross_boundary(b, s.jump);
     sum += 0.5 * s.jump * cross(a.at, b.at);
-    out.segments.push_back({a.at, b.at, s.jump});
+    Segment& left = out.segments.emplace_back();  // in place: a copy would wait for what is being written
+    left.a.x = a.at.x;
+    left.a.y = a.at.y;
+    left.b.x = b.at.x;
+    left.b.y = b.at.y;
+    left.jump = s.jump;
   }
   out.integral = sum;
   out.closed = changes == 0;
