@@ -60,11 +60,14 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
   int changes = 0;
   const auto cross_boundary = [&](const End& end, int change) {
     if (!end.moved) return;
-    Event event{end.at, end.on_chord, change};
+    Event& event = out.events.emplace_back();  // in place: a copy would wait for what is being written
+    event.at.x = end.at.x;
+    event.at.y = end.at.y;
+    event.on_chord = end.on_chord;
+    event.change = change;
     event.walked = part.walked(event);
     sum -= change * event.walked;
     changes += change;
-    out.events.push_back(event);
   };
   for (const Segment& s : out.segments) sum += 0.5 * s.jump * cross(s.a, s.b);
   for (const Segment& s : segments.subspan(inside)) {
@@ -74,7 +77,7 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
     cross_boundary(a, -s.jump);
     cross_boundary(b, s.jump);
     sum += 0.5 * s.jump * cross(a.at, b.at);
-    Segment& left = out.segments.emplace_back();  // in place: a copy would wait for what is being written
+    Segment& left = out.segments.emplace_back();  // in place, too
     left.a.x = a.at.x;
     left.a.y = a.at.y;
     left.b.x = b.at.x;
