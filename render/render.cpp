@@ -189,7 +189,7 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
   clock.restart();
   stats["renderer"] = context->renderer();
   stats["counts"] = frame.counts;
-  stats["options"] = {{"dbuffer_size", options.d_buffer.size},
+  stats["options"] = {{"dbuffer_size", frame.counts.at("buffer_size")},
                       {"dbuffer", name_in(d_buffer_contents(), options.d_buffer.contents)},
                       {"dbuffer_entries", options.d_buffer.entries},
                       {"visibility", name_in(visibility_curves(), options.d_buffer.curve)},
