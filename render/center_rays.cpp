@@ -165,8 +165,8 @@ detail::ReceiverLanes CenterRays::lanes(std::size_t first) const {
   return {&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
 }
 
-std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
-  std::vector<float> out(pixels_, 1.0f);
+void CenterRays::above_horizon(const DiskLight& light, std::vector<float>& out) const {
+  out.assign(pixels_, 1.0f);
   const LocalDisk disk = local_disk(light, rays_.frame());
   const auto look = [&](const tbb::blocked_range<std::size_t>& packets) {
     float delta[kLanes];
@@ -178,11 +178,10 @@ std::vector<float> CenterRays::above_horizon(const DiskLight& light) const {
   };
   rays_.impl().arena.execute(
       [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 256), look); });
-  return out;
 }
 
-std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
-  std::vector<float> out(pixels_, 1.0f);
+void CenterRays::first_cut(const DiskLight& light, std::vector<float>& out) const {
+  out.assign(pixels_, 1.0f);
   const LocalDisk disk = local_disk(light, rays_.frame());
   const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
     Packet packet;
@@ -198,7 +197,6 @@ std::vector<float> CenterRays::first_cut(const DiskLight& light) const {
   };
   rays_.impl().arena.execute(
       [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 64), trace); });
-  return out;
 }
 
 namespace {

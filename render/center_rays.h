@@ -23,21 +23,21 @@ class CenterRays {
  public:
   /// Copies what it needs of `surface`; `rays` must outlive it.
   CenterRays(const SurfaceBuffer& surface, const RayScene& rays);
-  /// One per pixel of the surface buffer: which part of the way from the disk's center to the receiver lies
-  /// before the first caster; 1 where none is met. Where the center is below the receiver's horizon and part
-  /// of the disk is above it, the way starts in the middle of that part's extent. Points behind the light and
-  /// such that see nothing of it count as open. Cost: one ray a pixel and another where that is cut, on all
-  /// cores.
-  std::vector<float> first_cut(const DiskLight& light) const;
+  /// Into `out` one per pixel of the surface buffer: which part of the way from the disk's center to the
+  /// receiver lies before the first caster; 1 where none is met. Where the center is below the receiver's
+  /// horizon and part of the disk is above it, the way starts in the middle of that part's extent. Points
+  /// behind the light and such that see nothing of it count as open. Cost: one ray a pixel and another where
+  /// that is cut, on all cores.
+  void first_cut(const DiskLight& light, std::vector<float>& out) const;
   /// Visibility of each of the given pixels, all of which see a surface: the disk's fraction above the
   /// horizon, times the share that is seen of sixteen points of equal shares of the disk (of those above).
   /// Nine patterns of points alternate over three by three pixels (interleaved sampling, Keller and Heidrich
   /// 2001). Where one edge crosses the disk, one pattern errs by .037 (root mean square over all chords; at
   /// worst by .14), the mean of the nine by .007. Cost: sixteen rays a pixel, on all cores.
   std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
-  /// One per pixel: the disk's area fraction above the receiver's horizon, 0 behind the light, 1 where
-  /// nothing is seen.
-  std::vector<float> above_horizon(const DiskLight& light) const;
+  /// Into `out` one per pixel: the disk's area fraction above the receiver's horizon, 0 behind the light, 1
+  /// where nothing is seen.
+  void above_horizon(const DiskLight& light, std::vector<float>& out) const;
 
  private:
   detail::ReceiverLanes lanes(std::size_t first) const;

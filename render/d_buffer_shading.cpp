@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include "render/d_buffer_passes.h"
-#include "render/visibility_steps.h"
 
 namespace penumbra::detail {
 namespace {
@@ -92,17 +91,17 @@ void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::
 }
 
 void DBufferShading::trace_center(const DiskLight& light) {
-  cuts_ = center_rays_->first_cut(light);
+  center_rays_->first_cut(light, cuts_);
   const auto upload = [&](const Object& texture, const std::vector<float>& texels) {
     gl_.BindTexture(GL_TEXTURE_2D, texture);
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RED, GL_FLOAT, texels.data());
   };
   upload(*first_cut_, cuts_);
-  open_ = center_rays_->above_horizon(light);
-  std::vector<float> without_entries = open_;
+  center_rays_->above_horizon(light, open_);
+  without_entries_ = open_;
   for (std::size_t i = 0; i < cuts_.size(); ++i)
-    if (cuts_[i] < 1.0f) without_entries[i] = 0.0f;
-  upload(*visibility_texture_, without_entries);
+    if (cuts_[i] < 1.0f) without_entries_[i] = 0.0f;
+  upload(*visibility_texture_, without_entries_);
 }
 
 ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
@@ -207,7 +206,7 @@ void DBufferShading::check(const DiskLight& light, std::vector<float>& visibilit
   const auto ask = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
   };
-  sampled_ = ask_beside_steps({width_, height_, positions_, normals_, open_}, lonely_, ask, visibility);
+  sampled_ = steps_.ask({width_, height_, positions_, normals_, open_}, lonely_, ask, visibility);
 }
 
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the

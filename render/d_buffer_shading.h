@@ -11,6 +11,7 @@
 #include "render/d_buffer_targets.h"
 #include "render/d_buffer_tiles.h"
 #include "render/receiver_grid.h"
+#include "render/visibility_steps.h"
 
 namespace penumbra::detail {
 
@@ -66,8 +67,9 @@ class DBufferShading {
       mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
-  std::vector<float> cuts_, open_;
+  std::vector<float> cuts_, open_, without_entries_;
   std::vector<std::uint32_t> lonely_;  ///< pixels, see lonely_pixels
+  VisibilitySteps steps_;
   gl::Object tile_array_, tile_buffer_;
   GLsizei tile_vertices_ = 0;
   std::vector<std::unique_ptr<Programs>> programs_;  ///< made when needed

@@ -45,14 +45,27 @@ bool is_one_surface(const ImageSurface& image, std::uint32_t i, std::uint32_t j,
          std::abs(glm::dot(n, way)) <= kApart * glm::length(way);
 }
 
+/// What is kept from one image to the next.
+struct Memory {
+  std::vector<float>& share;   ///< of what is above the horizon, by the entries
+  std::vector<float>& answer;  ///< visibility by rays; kNone where they were not asked
+  std::vector<char>& known;    ///< asked or about to be
+  std::vector<std::uint32_t>& asked;
+};
+
 class Steps {
  public:
-  Steps(const ImageSurface& image, std::vector<float>& visibility)
+  Steps(const ImageSurface& image, const Memory& memory, std::vector<float>& visibility)
       : image_(image),
         visibility_(visibility),
-        share_(visibility.size()),
-        answer_(visibility.size(), kNone),
-        known_(visibility.size(), 0) {
+        share_(memory.share),
+        answer_(memory.answer),
+        asked_(memory.asked),
+        known_(memory.known) {
+    share_.resize(visibility.size());
+    answer_.assign(visibility.size(), kNone);
+    asked_.clear();
+    known_.assign(visibility.size(), 0);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, share_.size(), 8192), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) share_[i] = share_of(i, visibility_[i]);
     });
@@ -191,11 +204,10 @@ class Steps {
 
   const ImageSurface& image_;
   std::vector<float>& visibility_;
-  std::vector<float> share_;   ///< of what is above the horizon, by the entries
-  std::vector<float> answer_;  ///< visibility by rays; kNone where they were not asked
-  std::vector<std::uint32_t> asked_;
-  std::size_t before_ = 0;   ///< how many were asked before the last time
-  std::vector<char> known_;  ///< asked or about to be
+  std::vector<float>&share_, &answer_;  ///< as in Memory
+  std::vector<std::uint32_t>& asked_;
+  std::vector<char>& known_;
+  std::size_t before_ = 0;  ///< how many were asked before the last time
 };
 
 }  // namespace
@@ -214,9 +226,9 @@ std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image) {
   return out;
 }
 
-std::size_t ask_beside_steps(const ImageSurface& image, std::span<const std::uint32_t> anyway,
-                             const AskVisibility& ask, std::vector<float>& visibility) {
-  Steps steps(image, visibility);
+std::size_t VisibilitySteps::ask(const ImageSurface& image, std::span<const std::uint32_t> anyway,
+                                 const AskVisibility& ask, std::vector<float>& visibility) {
+  Steps steps(image, {share_, answer_, known_, asked_}, visibility);
   for (std::vector<std::uint32_t> pixels = steps.find(anyway); !pixels.empty();)
     pixels = steps.take(pixels, ask(pixels));
   return steps.settle();

@@ -34,13 +34,22 @@ inline constexpr float kVisibilityStep = 0.1f;
 /// needles, where wrong entries contradict nothing. Cost O(pixels), on all cores.
 std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image);
 
-/// Asks about the pixels in `anyway` (ascending), about both sides of every step between neighbours on one
-/// surface, and about the neighbours of every pixel where the answers differ from `visibility` by more than
-/// their noise. Where they do, the mean of those on flat ground around a pixel takes its place, in opposite
-/// pairs so that a slope does not shift it; where they differ by less, only in part, so that no edge shows.
-/// Returns how many pixels were asked, each once; all of them see a surface. Cost O(pixels) and the answers,
-/// on all cores.
-std::size_t ask_beside_steps(const ImageSurface& image, std::span<const std::uint32_t> anyway,
-                             const AskVisibility& ask, std::vector<float>& visibility);
+/// Where rays are asked, and what becomes of their answers. Keeps its memory from one image to the next.
+class VisibilitySteps {
+ public:
+  /// Asks about the pixels in `anyway` (ascending), about both sides of every step between neighbours on one
+  /// surface, and about the neighbours of every pixel where the answers differ from `visibility` by more than
+  /// their noise. Where they do, the mean of those on flat ground around a pixel takes its place, in opposite
+  /// pairs so that a slope does not shift it; where they differ by less, only in part, so that no edge shows.
+  /// Returns how many pixels were asked, each once; all of them see a surface. Cost O(pixels) and the
+  /// answers, on all cores.
+  std::size_t ask(const ImageSurface& image, std::span<const std::uint32_t> anyway, const AskVisibility& ask,
+                  std::vector<float>& visibility);
+
+ private:
+  std::vector<float> share_, answer_;
+  std::vector<char> known_;
+  std::vector<std::uint32_t> asked_;
+};
 
 }  // namespace penumbra::detail

@@ -73,7 +73,7 @@ TEST(EntryCheck, AHoleInAPenumbraIsFilledFromItsBorder) {
   Values v = oracle.truth;
   for (std::size_t y = 5; y < 15; ++y)
     for (std::size_t x = 6; x < 18; ++x) v[y * 24 + x] = 0.0f;
-  const std::size_t asked = detail::ask_beside_steps(plane.image(), {}, oracle.ask(), v);
+  const std::size_t asked = detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v);
   for (std::size_t i = 0; i < v.size(); ++i)
     EXPECT_NEAR(v[i], oracle.truth[i], detail::kVisibilityStep) << "pixel " << i;
   EXPECT_EQ(asked, oracle.asked.size());
@@ -91,12 +91,12 @@ TEST(EntryCheck, SlopesAndEdgesOfSurfacesAreNoSteps) {
     edge[i] = i % 24 < 12 ? 0.0f : 1.0f;
   }
   Values v = slope;
-  EXPECT_EQ(detail::ask_beside_steps(plane.image(), {}, oracle.ask(), v), 0u);
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 0u);
   EXPECT_EQ(v, slope);
   for (std::size_t i = 0; i < edge.size(); ++i)
     if (edge[i] > 0.0f) plane.positions[i].z = 7.0f;  // another surface
   v = edge;
-  EXPECT_EQ(detail::ask_beside_steps(plane.image(), {}, oracle.ask(), v), 0u);
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 0u);
   EXPECT_EQ(v, edge);
 }
 
@@ -105,7 +105,7 @@ TEST(EntryCheck, AStepOfTheHorizonAloneIsNone) {
   Oracle oracle{Values(24 * 20, 0.0f)};
   for (std::size_t i = 0; i < plane.open.size(); ++i) plane.open[i] = i % 24 < 12 ? 0.4f : 1.0f;
   Values v = plane.open;
-  EXPECT_EQ(detail::ask_beside_steps(plane.image(), {}, oracle.ask(), v), 0u);
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 0u);
   EXPECT_EQ(v, plane.open);
 }
 
@@ -116,7 +116,7 @@ TEST(EntryCheck, AnswersThatAgreeChangeNothing) {
   Oracle oracle{edge};
   for (float& value : oracle.truth) value += 0.01f;
   Values v = edge;
-  EXPECT_EQ(detail::ask_beside_steps(plane.image(), {}, oracle.ask(), v), 2u * 20u);
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 2u * 20u);
   EXPECT_EQ(v, edge);
 }
 
@@ -134,7 +134,7 @@ float worst_after_noisy_answers(const Plane& plane, const Values& truth) {
   for (std::size_t i = 0; i < truth.size(); ++i) oracle.truth[i] += noise_of(i % width, i / width);
   Values v(truth.size());
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = i % width < width / 2 ? 0.2f : 0.8f;
-  detail::ask_beside_steps(plane.image(), {}, oracle.ask(), v);
+  detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v);
   float worst = 0.0f;
   for (std::size_t y = 2; y + 2 < static_cast<std::size_t>(plane.height); ++y)
     for (std::size_t x = width / 2 - 4; x < width / 2 + 4; ++x)
@@ -170,7 +170,7 @@ TEST(EntryCheck, WhatNoNeighbourCanContradictIsAskedAnyway) {
   Oracle oracle{Values(24 * 20, 0.3f)};
   Values v(24 * 20, 0.3f);
   v[leaf] = 1.0f;
-  EXPECT_EQ(detail::ask_beside_steps(plane.image(), lonely, oracle.ask(), v), lonely.size());
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), lonely, oracle.ask(), v), lonely.size());
   EXPECT_EQ(v, oracle.truth);
 }
 
