@@ -31,6 +31,7 @@ class Exports {
                     const std::filesystem::path& folder, const State& state);
   /// What the last export said when it had finished; empty where there is nothing new.
   std::string news();
+  bool busy() const { return task_.valid(); }
 
  private:
   void (*wake_)();

@@ -22,16 +22,20 @@ class RandomInput {
   /// Moves, clicks and types; sometimes resizes the window or drops a file on it. Once a window
   /// frame, before ImGui's frame begins. Returns a command to obey, or none.
   std::optional<Command> act(Window& window);
-  bool done() const;
-  /// What was done, and how memory grew between a third of the time and the end.
+  /// After a third of the time and at its end the window rests: it is to show again what it showed at first,
+  /// so that what it takes then can be compared.
+  bool rests() const;
+  /// Ends a rest: everything is shown and nothing else is going on.
+  void note_memory();
+  bool done() const { return mib_.size() == 2; }
+  /// What was done, and how memory grew from one rest to the other.
   std::string summary() const;
-  /// Whether memory at the end is within a half and 64 MiB of that after a third.
+  /// Whether the second rest took at most a half and 64 MiB more than the first.
   bool memory_stayed() const;
 
  private:
   int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
   void use_mouse(Window& window);
-  void note_memory();
 
   using Clock = std::chrono::steady_clock;
   std::mt19937_64 engine_;
@@ -40,7 +44,7 @@ class RandomInput {
   Clock::time_point start_ = Clock::now();
   Window::Hand hand_;
   int actions_ = 0;
-  double third_mib_ = 0.0, last_mib_ = 0.0;
+  std::vector<double> mib_;  ///< one a rest
 };
 
 }  // namespace penumbra::viewer

@@ -36,6 +36,7 @@ class Viewer {
  private:
   void wait();
   void play();
+  void rest();
   void draw();
   void fit_picture();
   void obey(Command command);
@@ -65,6 +66,9 @@ class Viewer {
   Costs costs_;
   StatusFile status_;
   std::optional<RandomInput> random_input_;
+  State first_;  ///< as it was opened
+  bool goes_to_rest_ = true;
+  int rested_frames_ = 0;  ///< with everything shown
   bool show_panel_, show_help_ = false;
   int frames_ = 0;                                 ///< drawn so far
   std::chrono::steady_clock::time_point drawn_{};  ///< when the last was
@@ -88,6 +92,7 @@ Viewer::Viewer(ViewerOptions options, State state, std::string message)
       status_(options_.status),
       show_panel_(!options_.plain) {
   if (options_.random_input) random_input_.emplace(*options_.random_input, options_.seconds, options_.files);
+  first_ = state_;
 }
 
 int Viewer::run() {
@@ -121,9 +126,29 @@ int Viewer::run() {
 void Viewer::play() {
   if (!options_.drop.empty() && settled()) window_.drop(std::exchange(options_.drop, {}));
   if (!random_input_) return;
-  if (random_input_->done()) return window_.close();
-  if (const auto command = random_input_->act(window_)) obey(*command);
   frames_to_draw_ = 1;
+  if (random_input_->rests()) return rest();
+  if (const auto command = random_input_->act(window_)) obey(*command);
+}
+
+// Back to what was shown at first; once all of it is there, what it takes is noted.
+void Viewer::rest() {
+  if (std::exchange(goes_to_rest_, false)) {
+    window_.use_hand({});
+    window_.set_size(options_.width + (options_.plain ? 0 : kPanelWidth), options_.height);
+    const int revision = state_.revision + 1;
+    state_ = first_;
+    state_.revision = revision;
+    show_panel_ = !options_.plain;
+    show_help_ = false;
+    rested_frames_ = 0;
+  }
+  const bool busy = overlay_maker_.busy() || probe_.busy() || exports_.busy();
+  rested_frames_ = settled() && !busy && state_.left.width == options_.width ? rested_frames_ + 1 : 0;
+  if (rested_frames_ < 10) return;
+  random_input_->note_memory();
+  goes_to_rest_ = true;
+  if (random_input_->done()) window_.close();
 }
 
 // Sleeps where nothing is to be done: until an event, or until it is time to ask for the full picture.
