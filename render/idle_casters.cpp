@@ -100,7 +100,7 @@ std::vector<glm::vec4> ray_origins(const RayFrame& frame, const SurfaceBuffer& s
 }  // namespace
 
 std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface) {
-  constexpr std::size_t kSome = 1009;  // shares no factor with an image's width
+  constexpr std::size_t kSome = 1009;  // a prime: spread over rows and columns
   const DiskLight light{frame.to_local(scene.light.center), scene.light.normal,
                         scene.light.radius * frame.scale};
   std::vector<char> idle(scene.objects.size(), 0);

@@ -56,7 +56,7 @@ struct Workspace {
 };
 
 /// In place, member by member: a task made elsewhere and copied is read in wider pieces than it was written
-/// in, for which the processor waits; with what else was copied here, a tenth of a simple scene's time.
+/// in, for which the processor waits; with what else was copied so, a twentieth of a simple scene's time.
 void add_task(std::vector<RayTask>& tasks, std::uint32_t pixel, const glm::dvec2& aim, bool step_back,
               std::size_t receiver) {
   RayTask& task = tasks.emplace_back();
