@@ -257,7 +257,7 @@ std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
   };
   std::vector<float> out(pixels.size());
   rays_.impl().arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 64), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 8), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) out[i] = look(pixels[i]);
     });
   });

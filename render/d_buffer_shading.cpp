@@ -1,5 +1,8 @@
 #include "render/d_buffer_shading.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <glm/geometric.hpp>
 
 #include "render/d_buffer_passes.h"
@@ -98,9 +101,11 @@ void DBufferShading::trace_center(const DiskLight& light) {
   };
   upload(*first_cut_, cuts_);
   center_rays_->above_horizon(light, open_);
-  without_entries_ = open_;
-  for (std::size_t i = 0; i < cuts_.size(); ++i)
-    if (cuts_[i] < 1.0f) without_entries_[i] = 0.0f;
+  without_entries_.resize(cuts_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cuts_.size(), 8192), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      without_entries_[i] = cuts_[i] < 1.0f ? 0.0f : open_[i];
+  });
   upload(*visibility_texture_, without_entries_);
 }
 

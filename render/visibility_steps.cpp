@@ -45,172 +45,133 @@ bool is_one_surface(const ImageSurface& image, std::uint32_t i, std::uint32_t j,
          std::abs(glm::dot(n, way)) <= kApart * glm::length(way);
 }
 
-/// What is kept from one image to the next.
-struct Memory {
-  std::vector<float>& share;   ///< of what is above the horizon, by the entries
-  std::vector<float>& answer;  ///< visibility by rays; kNone where they were not asked
-  std::vector<char>& known;    ///< asked or about to be
-  std::vector<std::uint32_t>& asked;
-};
+constexpr float kNone = -1.0f;  // no answer
 
-class Steps {
- public:
-  Steps(const ImageSurface& image, const Memory& memory, std::vector<float>& visibility)
-      : image_(image),
-        visibility_(visibility),
-        share_(memory.share),
-        answer_(memory.answer),
-        asked_(memory.asked),
-        known_(memory.known) {
-    share_.resize(visibility.size());
-    answer_.assign(visibility.size(), kNone);
-    asked_.clear();
-    known_.assign(visibility.size(), 0);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, share_.size(), 8192), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) share_[i] = share_of(i, visibility_[i]);
-    });
-  }
+/// Of what is above the horizon; a sliver of the disk counts as seen.
+float share_of(float open, float visibility) {
+  return open > 0.05f ? visibility / open : 1.0f;
+}
 
-  /// Those given and the pixels on either side of a step, in the image's order.
-  std::vector<std::uint32_t> find(std::span<const std::uint32_t> anyway) {
-    tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
-    tbb::parallel_for(tbb::blocked_range<int>(0, image_.height, 16), [&](const auto& rows) {
-      for (int y = rows.begin(); y < rows.end(); ++y) find_in_row(y, parts.local());
-    });
-    std::vector<std::uint32_t> out(anyway.begin(), anyway.end());
-    for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    for (const std::uint32_t i : out) known_[i] = 1;
-    return out;
-  }
-
-  /// Takes what was said of the pixels; returns those to be asked next. The pixels of the time before are
-  /// looked at once more, since now there are answers all around them.
-  std::vector<std::uint32_t> take(std::span<const std::uint32_t> pixels, std::span<const float> said) {
-    for (std::size_t k = 0; k < pixels.size(); ++k) answer_[pixels[k]] = said[k];
-    const std::size_t again = before_;
-    before_ = asked_.size();
-    asked_.insert(asked_.end(), pixels.begin(), pixels.end());
-    std::vector<std::uint32_t> next;
-    for (std::size_t k = again; k < asked_.size(); ++k) {
-      const std::uint32_t i = asked_[k];
-      if (!(difference(i, mean_answer(i)) > 1.0f)) continue;
-      for_neighbours(image_, i, [&](std::uint32_t j) {
-        if (known_[j] || !is_one_surface(i, j)) return;
-        known_[j] = 1;
-        next.push_back(j);
-      });
-    }
-    return next;
-  }
-
-  /// Puts what was said of a pixel and around it in place of what differs from it. Returns how many pixels
-  /// were asked.
-  std::size_t settle() {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, asked_.size(), 512), [&](const auto& range) {
-      for (std::size_t k = range.begin(); k < range.end(); ++k) settle(asked_[k]);
-    });
-    return asked_.size();
-  }
-
- private:
-  static constexpr float kNone = -1.0f;
-
-  /// Of what is above the horizon; a sliver of the disk counts as seen.
-  float share_of(std::size_t i, float visibility) const {
-    return image_.open[i] > 0.05f ? visibility / image_.open[i] : 1.0f;
-  }
-
-  /// What answers around a pixel say, and of how many it is the mean. They count by how much of the disk is
-  /// above their horizon, and in opposite pairs, so that a slope does not shift it.
-  struct Mean {
-    float visibility;
-    int answers;
-  };
-  Mean mean_answer(std::uint32_t i) const {
-    const auto width = static_cast<std::uint32_t>(image_.width);
-    if (i < width || i + width >= answer_.size() || i % width == 0 || i % width == width - 1)
-      return {answer_[i], 1};
-    float seen = answer_[i], open = image_.open[i];
-    int answers = 1;
-    for (const std::uint32_t d : {1u, width - 1, width, width + 1}) {
-      if (answer_[i - d] == kNone || answer_[i + d] == kNone) continue;
-      if (!is_one_surface(i, i - d, kFlat) || !is_one_surface(i, i + d, kFlat)) continue;
-      const float before = answer_[i - d], after = answer_[i + d];
-      if (std::abs(0.5f * (before + after) - answer_[i]) > kBend || std::abs(before - after) > kBend)
-        continue;
-      seen += answer_[i - d] + answer_[i + d];
-      open += image_.open[i - d] + image_.open[i + d];
-      answers += 2;
-    }
-    return {open > 0.0f ? image_.open[i] * seen / open : 0.0f, answers};
-  }
-
-  /// What is said of a pixel and around it against what the entries say, in units of what the answers' noise
-  /// explains.
-  float difference(std::uint32_t i, const Mean& mean) const {
-    return std::abs(mean.visibility - visibility_[i]) * std::sqrt(static_cast<float>(mean.answers)) /
-           kAnswerNoise;
-  }
-
-  void settle(std::uint32_t i) {
-    const Mean mean = mean_answer(i);
-    const float weight = std::clamp(2.0f * difference(i, mean) - 1.0f, 0.0f, 1.0f);
-    visibility_[i] += weight * (mean.visibility - visibility_[i]);
-  }
-
-  /// Both sides of the steps between a row's pixels and to the next row's.
-  void find_in_row(int y, std::vector<std::uint32_t>& out) const {
-    const auto width = static_cast<std::uint32_t>(image_.width);
-    const std::uint32_t begin = static_cast<std::uint32_t>(y) * width;
-    find_between(begin, width - 1, 1, out);
-    if (y + 1 < image_.height) find_between(begin, width, width, out);
-  }
-
-  /// Of `count` pixels from `begin` and those `apart` further on.
-  void find_between(std::uint32_t begin, std::uint32_t count, std::uint32_t apart,
-                    std::vector<std::uint32_t>& out) const {
-    constexpr std::uint32_t kBlock = 64;
-    for (std::uint32_t i = begin, end = begin + count; i < end; i += kBlock) {
-      const std::uint32_t n = std::min(kBlock, end - i);
-      if (!any_apart(&share_[i], &share_[i + apart], n)) continue;
-      for (std::uint32_t k = i; k < i + n; ++k)
-        if (is_step(k, k + apart)) out.insert(out.end(), {k, k + apart});
-    }
-  }
-
-  /// The next one on the line from i through j; j at the image's border.
-  std::uint32_t beyond(std::uint32_t i, std::uint32_t j) const {
-    const auto width = static_cast<std::uint32_t>(image_.width);
-    const std::uint32_t next = 2 * j - i;  // wraps to a great number above the first row
-    const std::uint32_t column = j % width;
-    const bool sideways = j / width == i / width;
-    return next >= visibility_.size() || (sideways && (column == 0 || column + 1 == width)) ? j : next;
-  }
-
-  bool is_step(std::uint32_t i, std::uint32_t j) const {
-    const float step = share_[j] - share_[i];
-    if (!(std::abs(step) > kVisibilityStep)) return false;
-    const float before = share_[i] - share_[beyond(j, i)], after = share_[beyond(i, j)] - share_[j];
-    if (!(std::abs(step - before) > kVisibilityStep && std::abs(step - after) > kVisibilityStep))
-      return false;
-    return is_one_surface(i, j);
-  }
-
-  bool is_one_surface(std::uint32_t i, std::uint32_t j, float turned = kTurned) const {
-    return penumbra::detail::is_one_surface(image_, i, j, turned);
-  }
-
-  const ImageSurface& image_;
-  std::vector<float>& visibility_;
-  std::vector<float>&share_, &answer_;  ///< as in Memory
-  std::vector<std::uint32_t>& asked_;
-  std::vector<char>& known_;
-  std::size_t before_ = 0;  ///< how many were asked before the last time
-};
+/// The next one on the line from i through j; j at the image's border.
+std::uint32_t beyond(const ImageSurface& image, std::uint32_t i, std::uint32_t j) {
+  const auto width = static_cast<std::uint32_t>(image.width);
+  const std::uint32_t next = 2 * j - i;  // wraps to a great number above the first row
+  const std::uint32_t column = j % width;
+  const bool sideways = j / width == i / width;
+  return next >= image.positions.size() || (sideways && (column == 0 || column + 1 == width)) ? j : next;
+}
 
 }  // namespace
+
+void VisibilitySteps::begin() {
+  share_.resize(visibility_.size());
+  answer_.assign(visibility_.size(), kNone);
+  known_.assign(visibility_.size(), 0);
+  asked_.clear();
+  before_ = 0;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, share_.size(), 8192), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      share_[i] = share_of(image_.open[i], visibility_[i]);
+  });
+}
+
+std::vector<std::uint32_t> VisibilitySteps::find(std::span<const std::uint32_t> anyway) {
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
+  tbb::parallel_for(tbb::blocked_range<int>(0, image_.height, 16), [&](const auto& rows) {
+    for (int y = rows.begin(); y < rows.end(); ++y) find_in_row(y, parts.local());
+  });
+  std::vector<std::uint32_t> out(anyway.begin(), anyway.end());
+  for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  for (const std::uint32_t i : out) known_[i] = 1;
+  return out;
+}
+
+void VisibilitySteps::find_in_row(int y, std::vector<std::uint32_t>& out) const {
+  const auto width = static_cast<std::uint32_t>(image_.width);
+  const std::uint32_t begin = static_cast<std::uint32_t>(y) * width;
+  find_between(begin, width - 1, 1, out);
+  if (y + 1 < image_.height) find_between(begin, width, width, out);
+}
+
+void VisibilitySteps::find_between(std::uint32_t begin, std::uint32_t count, std::uint32_t apart,
+                                   std::vector<std::uint32_t>& out) const {
+  constexpr std::uint32_t kBlock = 64;
+  for (std::uint32_t i = begin, end = begin + count; i < end; i += kBlock) {
+    const std::uint32_t n = std::min(kBlock, end - i);
+    if (!any_apart(&share_[i], &share_[i + apart], n)) continue;
+    for (std::uint32_t k = i; k < i + n; ++k)
+      if (is_step(k, k + apart)) out.insert(out.end(), {k, k + apart});
+  }
+}
+
+bool VisibilitySteps::is_step(std::uint32_t i, std::uint32_t j) const {
+  const float step = share_[j] - share_[i];
+  if (!(std::abs(step) > kVisibilityStep)) return false;
+  const float before = share_[i] - share_[beyond(image_, j, i)];
+  const float after = share_[beyond(image_, i, j)] - share_[j];
+  if (!(std::abs(step - before) > kVisibilityStep && std::abs(step - after) > kVisibilityStep)) return false;
+  return is_one_surface(image_, i, j, kTurned);
+}
+
+std::vector<std::uint32_t> VisibilitySteps::take(std::span<const std::uint32_t> pixels,
+                                                 std::span<const float> said) {
+  for (std::size_t k = 0; k < pixels.size(); ++k) answer_[pixels[k]] = said[k];
+  const std::size_t again = before_;
+  before_ = asked_.size();
+  asked_.insert(asked_.end(), pixels.begin(), pixels.end());
+  differs_.resize(asked_.size() - again);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, differs_.size(), 256), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k)
+      differs_[k] = difference(asked_[again + k], mean_answer(asked_[again + k])) > 1.0f;
+  });
+  std::vector<std::uint32_t> next;
+  for (std::size_t k = 0; k < differs_.size(); ++k) {
+    if (!differs_[k]) continue;
+    const std::uint32_t i = asked_[again + k];
+    for_neighbours(image_, i, [&](std::uint32_t j) {
+      if (known_[j] || !is_one_surface(image_, i, j, kTurned)) return;
+      known_[j] = 1;
+      next.push_back(j);
+    });
+  }
+  return next;
+}
+
+VisibilitySteps::Mean VisibilitySteps::mean_answer(std::uint32_t i) const {
+  const auto width = static_cast<std::uint32_t>(image_.width);
+  if (i < width || i + width >= answer_.size() || i % width == 0 || i % width == width - 1)
+    return {answer_[i], 1};
+  float seen = answer_[i], open = image_.open[i];
+  int answers = 1;
+  for (const std::uint32_t d : {1u, width - 1, width, width + 1}) {
+    if (answer_[i - d] == kNone || answer_[i + d] == kNone) continue;
+    if (!is_one_surface(image_, i, i - d, kFlat) || !is_one_surface(image_, i, i + d, kFlat)) continue;
+    const float before = answer_[i - d], after = answer_[i + d];
+    if (std::abs(0.5f * (before + after) - answer_[i]) > kBend || std::abs(before - after) > kBend) continue;
+    seen += answer_[i - d] + answer_[i + d];
+    open += image_.open[i - d] + image_.open[i + d];
+    answers += 2;
+  }
+  return {open > 0.0f ? image_.open[i] * seen / open : 0.0f, answers};
+}
+
+float VisibilitySteps::difference(std::uint32_t i, const Mean& mean) const {
+  return std::abs(mean.visibility - visibility_[i]) * std::sqrt(static_cast<float>(mean.answers)) /
+         kAnswerNoise;
+}
+
+void VisibilitySteps::settle() {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, asked_.size(), 512), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      const std::uint32_t i = asked_[k];
+      const Mean mean = mean_answer(i);
+      const float weight = std::clamp(2.0f * difference(i, mean) - 1.0f, 0.0f, 1.0f);
+      visibility_[i] += weight * (mean.visibility - visibility_[i]);
+    }
+  });
+}
 
 std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image) {
   std::vector<char> lonely(image.positions.size());
@@ -227,11 +188,13 @@ std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image) {
 }
 
 std::size_t VisibilitySteps::ask(const ImageSurface& image, std::span<const std::uint32_t> anyway,
-                                 const AskVisibility& ask, std::vector<float>& visibility) {
-  Steps steps(image, {share_, answer_, known_, asked_}, visibility);
-  for (std::vector<std::uint32_t> pixels = steps.find(anyway); !pixels.empty();)
-    pixels = steps.take(pixels, ask(pixels));
-  return steps.settle();
+                                 const AskVisibility& ask, std::span<float> visibility) {
+  image_ = image;
+  visibility_ = visibility;
+  begin();
+  for (std::vector<std::uint32_t> pixels = find(anyway); !pixels.empty();) pixels = take(pixels, ask(pixels));
+  settle();
+  return asked_.size();
 }
 
 }  // namespace penumbra::detail

@@ -19,7 +19,7 @@ namespace penumbra::detail {
 /// An image's surface; the fourth number of a position is 0 where nothing is seen. `open` is the visibility
 /// that the horizon alone leaves: only what casters do to it is compared, since it jumps where normals do.
 struct ImageSurface {
-  int width, height;
+  int width = 0, height = 0;
   std::span<const glm::vec4> positions, normals;
   std::span<const float> open;
 };
@@ -44,12 +44,42 @@ class VisibilitySteps {
   /// Returns how many pixels were asked, each once; all of them see a surface. Cost O(pixels) and the
   /// answers, on all cores.
   std::size_t ask(const ImageSurface& image, std::span<const std::uint32_t> anyway, const AskVisibility& ask,
-                  std::vector<float>& visibility);
+                  std::span<float> visibility);
 
  private:
-  std::vector<float> share_, answer_;
-  std::vector<char> known_;
+  void begin();
+  /// Those given and the pixels on either side of a step, in the image's order.
+  std::vector<std::uint32_t> find(std::span<const std::uint32_t> anyway);
+  /// Both sides of the steps between a row's pixels and to the next row's.
+  void find_in_row(int y, std::vector<std::uint32_t>& out) const;
+  /// Of `count` pixels from `begin` and those `apart` further on.
+  void find_between(std::uint32_t begin, std::uint32_t count, std::uint32_t apart,
+                    std::vector<std::uint32_t>& out) const;
+  bool is_step(std::uint32_t i, std::uint32_t j) const;
+  /// Takes what was said of the pixels; returns those to be asked next. The pixels of the time before are
+  /// looked at once more, since now there are answers all around them.
+  std::vector<std::uint32_t> take(std::span<const std::uint32_t> pixels, std::span<const float> said);
+  /// What answers around a pixel say, and of how many it is the mean. They count by how much of the disk is
+  /// above their horizon, and in opposite pairs, so that a slope does not shift it.
+  struct Mean {
+    float visibility;
+    int answers;
+  };
+  Mean mean_answer(std::uint32_t i) const;
+  /// What is said of a pixel and around it against what the entries say, in units of what the answers' noise
+  /// explains.
+  float difference(std::uint32_t i, const Mean& mean) const;
+  /// Puts what was said of a pixel and around it in place of what differs from it.
+  void settle();
+
+  ImageSurface image_;           ///< this and the next while asking
+  std::span<float> visibility_;  ///< by the entries
+  std::vector<float> share_;     ///< of what is above the horizon, by the entries
+  std::vector<float> answer_;    ///< visibility by rays; negative where they were not asked
+  std::vector<char> known_;      ///< asked or about to be
   std::vector<std::uint32_t> asked_;
+  std::size_t before_ = 0;     ///< how many were asked before the last time
+  std::vector<char> differs_;  ///< of those asked the last two times: the answers from the entries
 };
 
 }  // namespace penumbra::detail

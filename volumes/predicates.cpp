@@ -24,9 +24,9 @@ std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLi
   return line_outside_disk_in<FilterArithmetic>(a, b, light);
 }
 
-std::optional<Sign> side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
-                                          const DiskLight& light) {
-  return side_of_tangent_plane_in<FilterArithmetic>(a, b, q, which, light);
+std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                                           const DiskLight& light) {
+  return sides_of_tangent_planes_in<FilterArithmetic>(a, b, q, light);
 }
 
 std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -59,11 +59,16 @@ Sign line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light) {
   return detail::exact::line_outside_disk(a, b, light);
 }
 
+std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                            const DiskLight& light) {
+  if (const auto result = detail::filter::sides_of_tangent_planes(a, b, q, light)) return *result;
+  if (const auto result = detail::interval::sides_of_tangent_planes(a, b, q, light)) return *result;
+  return detail::exact::sides_of_tangent_planes(a, b, q, light);
+}
+
 Sign side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
                            const DiskLight& light) {
-  if (const auto result = detail::filter::side_of_tangent_plane(a, b, q, which, light)) return *result;
-  if (const auto result = detail::interval::side_of_tangent_plane(a, b, q, which, light)) return *result;
-  return detail::exact::side_of_tangent_plane(a, b, q, which, light);
+  return sides_of_tangent_planes(a, b, q, light)[static_cast<std::size_t>(which)];
 }
 
 bool detail::collinear(const Vec3& a, const Vec3& b, const Vec3& c) {

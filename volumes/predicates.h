@@ -9,6 +9,7 @@
 // Laws that hold exactly are stated at each function and tested.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -63,5 +64,9 @@ enum class Tangent : std::uint8_t { kFirst, kSecond };
 /// negative).
 Sign side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
                            const DiskLight& light);
+
+/// The same for both planes at the price of one: [0] of kFirst, [1] of kSecond.
+std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                            const DiskLight& light);
 
 }  // namespace penumbra

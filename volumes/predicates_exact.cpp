@@ -65,10 +65,10 @@ std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLi
   return line_outside_disk_in<IntervalArithmetic>(a, b, light);
 }
 
-std::optional<Sign> side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
-                                          const DiskLight& light) {
+std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                                           const DiskLight& light) {
   const RoundUpwards protect;
-  return side_of_tangent_plane_in<IntervalArithmetic>(a, b, q, which, light);
+  return sides_of_tangent_planes_in<IntervalArithmetic>(a, b, q, light);
 }
 
 std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -96,9 +96,9 @@ Sign line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light) {
   return *line_outside_disk_in<ExactArithmetic>(a, b, light);
 }
 
-Sign side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
-                           const DiskLight& light) {
-  return *side_of_tangent_plane_in<ExactArithmetic>(a, b, q, which, light);
+std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                            const DiskLight& light) {
+  return *sides_of_tangent_planes_in<ExactArithmetic>(a, b, q, light);
 }
 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c) {

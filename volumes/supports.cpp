@@ -45,14 +45,19 @@ class FacetFinder {
     const Vec3 &a = mesh_.position(e.from), &b = mesh_.position(e.to);
     if (is_behind(light_, a) && is_behind(light_, b)) return out;
     if (line_outside_disk(a, b, light_) != Sign::kPositive) return out;
+    using Sides = std::array<Sign, 2>;
+    const Sides left = sides_of_tangent_planes(a, b, mesh_.position(e.left_apex), light_);
+    std::optional<Sides> right;
+    if (!e.is_boundary()) right = sides_of_tangent_planes(a, b, mesh_.position(e.right_apex), light_);
+    std::array<std::optional<SupportKind>, 2> kinds;
+    for (std::size_t i = 0; i < 2; ++i)
+      kinds[i] = facet_kind(left[i], right ? std::optional((*right)[i]) : std::nullopt);
+    if (!kinds[0] && !kinds[1]) return out;
     const auto planes = tangent_planes(a, b, light_);
     if (!planes) return out;
     for (const Tangent which : {Tangent::kFirst, Tangent::kSecond}) {
       const auto i = static_cast<std::size_t>(which);
-      const Sign left = side_of_tangent_plane(a, b, mesh_.position(e.left_apex), which, light_);
-      std::optional<Sign> right;
-      if (!e.is_boundary()) right = side_of_tangent_plane(a, b, mesh_.position(e.right_apex), which, light_);
-      if (const auto kind = facet_kind(left, right)) out[i] = facet_on(id, *kind, which, (*planes)[i].normal);
+      if (kinds[i]) out[i] = facet_on(id, *kinds[i], which, (*planes)[i].normal);
     }
     return out;
   }

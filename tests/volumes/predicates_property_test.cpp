@@ -245,9 +245,12 @@ TEST(PredicatesProperty, SideOfTangentPlaneAgreesWithRationals) {
     const auto truth = tangent_oracle(in, which);
     if (!truth) continue;
     if (*truth == Sign::kZero) ++zeros;
-    count(tally, detail::filter::side_of_tangent_plane(p[0], p[1], p[2], which, in.light),
-          detail::interval::side_of_tangent_plane(p[0], p[1], p[2], which, in.light),
-          detail::exact::side_of_tangent_plane(p[0], p[1], p[2], which, in.light),
+    const auto chosen = [&](const std::optional<std::array<Sign, 2>>& sides) {
+      return sides ? std::optional((*sides)[static_cast<std::size_t>(which)]) : std::nullopt;
+    };
+    count(tally, chosen(detail::filter::sides_of_tangent_planes(p[0], p[1], p[2], in.light)),
+          chosen(detail::interval::sides_of_tangent_planes(p[0], p[1], p[2], in.light)),
+          *chosen(detail::exact::sides_of_tangent_planes(p[0], p[1], p[2], in.light)),
           side_of_tangent_plane(p[0], p[1], p[2], which, in.light), *truth);
   }
   expect_agreement("side_of_tangent_plane", tally);

@@ -5,6 +5,7 @@
 // the plane of edge and point, w = center - a, m the light's normal of any length, r its radius.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "volumes/predicates.h"
@@ -144,26 +145,28 @@ auto wedge_form(const Vec3& a, const Vec3& b, const Vec3& q, const DiskLight& li
 ///  both).
 ///  - It touches: q is on the tangent that those two signs name.
 template <class Arithmetic>
-std::optional<Sign> side_of_tangent_plane_in(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
-                                             const DiskLight& light) {
+std::optional<std::array<Sign, 2>> sides_of_tangent_planes_in(const Vec3& a, const Vec3& b, const Vec3& q,
+                                                              const DiskLight& light) {
+  using Sides = std::array<Sign, 2>;  // of kFirst, of kSecond
   const auto forms = disk_to_plane<Arithmetic>(a, b, q, light);
   const std::optional<Sign> tangency = Arithmetic::sign(forms.tangency);
   if (!tangency) return std::nullopt;
   const auto wedge = [&] { return Arithmetic::sign(wedge_form<Arithmetic>(a, b, q, light)); };
-  if (*tangency == Sign::kNegative) return wedge();
-
+  if (*tangency == Sign::kNegative) {
+    const std::optional<Sign> side = wedge();
+    return side ? std::optional(Sides{*side, *side}) : std::nullopt;
+  }
   const std::optional<Sign> center = Arithmetic::sign(forms.center);
   if (!center) return std::nullopt;
-  if (*center == Sign::kZero)
-    return Sign::kZero;  // q on the edge's line, or in a plane that is both tangents
+  if (*center == Sign::kZero)  // q on the edge's line, or in a plane that is both tangents
+    return Sides{Sign::kZero, Sign::kZero};
   const bool clockwise = *center == Sign::kPositive;
-  if (*tangency == Sign::kPositive) {
-    return clockwise == (which == Tangent::kFirst) ? Sign::kNegative : Sign::kPositive;
-  }
+  if (*tangency == Sign::kPositive)
+    return clockwise ? Sides{Sign::kNegative, Sign::kPositive} : Sides{Sign::kPositive, Sign::kNegative};
   const std::optional<Sign> side = wedge();
   if (!side) return std::nullopt;
   const bool on_first = clockwise == (*side == Sign::kPositive);
-  return on_first == (which == Tangent::kFirst) ? Sign::kZero : *side;
+  return on_first ? Sides{Sign::kZero, *side} : Sides{*side, Sign::kZero};
 }
 
 }  // namespace penumbra::detail

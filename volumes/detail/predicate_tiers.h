@@ -2,6 +2,7 @@
 // they cannot decide; whatever they return agrees with the exact tier.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "volumes/predicates.h"
@@ -14,8 +15,8 @@ std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3&
 std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 std::optional<Sign> side_of_light_plane(const Vec3& p, const DiskLight& light);
 std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
-std::optional<Sign> side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
-                                          const DiskLight& light);
+std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                                           const DiskLight& light);
 std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace filter
 
@@ -25,8 +26,8 @@ std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3&
 std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 std::optional<Sign> side_of_light_plane(const Vec3& p, const DiskLight& light);
 std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
-std::optional<Sign> side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
-                                          const DiskLight& light);
+std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                                           const DiskLight& light);
 std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace interval
 
@@ -36,8 +37,8 @@ FaceClass classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskL
 Sign orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 Sign side_of_light_plane(const Vec3& p, const DiskLight& light);
 Sign line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
-Sign side_of_tangent_plane(const Vec3& a, const Vec3& b, const Vec3& q, Tangent which,
-                           const DiskLight& light);
+std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                            const DiskLight& light);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace exact
 
