@@ -149,7 +149,7 @@ void Evaluation::tile(int column, int row, Workspace& w) const {
     w.counts.listed_edges += count_blocks(w.blocks[0]) * BandTree::kFanOut;
     divide_blocks(0, w.receivers.size(), 0, w);
   } else {
-    gather_edges(band_, w.blocks[0], shaft, w.edges);
+    blocks_.gather(w.blocks[0], shaft, w.edges);
     w.counts.listed_edges += w.edges.size();
     w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
     w.list.assign(band_, w.edges, shaft.middle());

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace penumbra::detail {
@@ -31,6 +32,26 @@ PENUMBRA_INLINE void jumps_of(const Block& b, const FloatPoint& p, Ints& out) {
   // Comparisons are -1 where true.
   const Ints jump = -1 - 2 * (left > 0.0f) + (right > 0.0f) - (right < 0.0f);
   out = sure ? jump : unsure;
+}
+
+/// Signs of a plane over a box of receivers, 0 where it has none; its tolerance covers the rounding.
+PENUMBRA_INLINE void sides_of(const Plane& plane, const FloatBox& box, Ints& out) {
+  const auto& [m, half] = box;
+  const Floats value = plane.x * m[0] + plane.y * m[1] + plane.z * m[2] + plane.offset;
+  const Floats reach =
+      magnitude(plane.x) * half[0] + magnitude(plane.y) * half[1] + magnitude(plane.z) * half[2];
+  const Floats least = 1.0001f * reach + plane.tolerance;
+  out = (magnitude(value) > least) & ((value > 0.0f) - (value < 0.0f));
+}
+
+/// Bit i is clear where both faces of edge i keep one side over a box of receivers, the same: then it is not
+/// on the silhouette for any of them.
+PENUMBRA_VECTOR_CLONES
+std::uint32_t may_be_silhouettes(const Block& block, const FloatBox& receivers) {
+  Ints left, right;
+  sides_of(block.left, receivers, left);
+  sides_of(block.right, receivers, right);
+  return bits_of(~((left == right) & (left != 0)));
 }
 
 /// Blocks that are not dropped. Without branches, which nothing could predict: a place is written in any case
@@ -95,6 +116,21 @@ void EdgeBlocks::fill(std::size_t block) {
     set(blocks_[block].left, lane, is_edge ? band_.edges[i].left : front);
     set(blocks_[block].right, lane, is_edge ? band_.edges[i].right : front);
   }
+}
+
+void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
+                        std::vector<std::uint32_t>& out) const {
+  out.clear();
+  const FloatBox receivers(shaft.middle(), shaft.half());
+  for (const Siblings& s : list)
+    for (std::uint32_t kept = s.kept; kept != 0; kept &= kept - 1) {
+      const auto block = s.parent * kFloatLanes + static_cast<std::uint32_t>(std::countr_zero(kept));
+      for (std::uint32_t edges = may_be_silhouettes(blocks_[block], receivers); edges != 0;
+           edges &= edges - 1) {
+        const std::uint32_t i = block * kFloatLanes + static_cast<std::uint32_t>(std::countr_zero(edges));
+        if (!shaft.misses(band_.edges[i])) out.push_back(i);
+      }
+    }
 }
 
 void EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,

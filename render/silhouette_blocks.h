@@ -19,6 +19,9 @@ class EdgeBlocks {
   /// The band in the order of its tree; it must outlive this. Cost O(E), on all cores.
   explicit EdgeBlocks(const Band& band);
 
+  /// Of the list's edges those that the shaft's receivers may have to look at, by their indices in the band,
+  /// ascending.
+  void gather(const std::vector<Siblings>& list, const Shaft& shaft, std::vector<std::uint32_t>& out) const;
   /// Edges by their indices in the band, ascending. Cost: some 5 flops an edge of the list, 13 of those
   /// blocks that are not dropped. Compiled for several instruction sets with the same result.
   void sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,

@@ -16,6 +16,17 @@ double cross(const glm::dvec2& p, const glm::dvec2& q) {
   return p.x * q.y - p.y * q.x;
 }
 
+/// From the whole disk's lowest point.
+PENUMBRA_INLINE double walked_on_rim(const Event& e) {
+  const double y = e.at.y < -1.0 ? -1.0 : e.at.y > 1.0 ? 1.0 : e.at.y, angle = arc_sine(y);
+  return e.at.x < 0.0 ? 0.5 * (1.5 * kPi - angle) : 0.5 * (0.5 * kPi + angle);
+}
+
+PENUMBRA_VECTOR_CLONES
+void walk_rim(const Event* events, std::size_t count, double* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) out[i] = walked_on_rim(events[i]);
+}
+
 /// Angle in [0, 2π).
 double turn(double angle) {
   return angle < 0.0 ? angle + 2.0 * kPi : angle;
@@ -102,11 +113,23 @@ bool DiskPart::before_bottom(const Event& e) const {
 }
 
 double DiskPart::walked(const Event& e) const {
-  if (!cut_) {
-    const double angle = arc_sine(std::clamp(e.at.y, -1.0, 1.0));
-    return on_left(e) ? 0.5 * (1.5 * kPi - angle) : 0.5 * (0.5 * kPi + angle);
-  }
+  if (!cut_) return walked_on_rim(e);
   return from_chord_start(e) - bottom_walk_ + (before_bottom(e) ? area_ : 0.0);
+}
+
+double DiskPart::sum_walked(std::span<const Event> events) const {
+  double sum = 0.0;
+  if (cut_) {
+    for (const Event& e : events) sum += e.change * walked(e);
+    return sum;
+  }
+  std::array<double, 32> walks;
+  for (; !events.empty(); events = events.subspan(std::min(walks.size(), events.size()))) {
+    const auto some = events.first(std::min(walks.size(), events.size()));
+    walk_rim(some.data(), some.size(), walks.data());
+    for (std::size_t i = 0; i < some.size(); ++i) sum += some[i].change * walks[i];
+  }
+  return sum;
 }
 
 glm::dvec2 DiskPart::middle() const {

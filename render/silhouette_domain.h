@@ -8,6 +8,7 @@
 
 #include <array>
 #include <glm/vec2.hpp>
+#include <span>
 #include <utility>
 
 #include "render/disk_area.h"
@@ -26,7 +27,6 @@ struct Event {
   glm::dvec2 at;
   bool on_chord;
   int change;
-  double walked = 0.0;  ///< DiskPart::walked
 };
 
 class DiskPart {
@@ -53,6 +53,8 @@ class DiskPart {
   bool comes_first(const Event& a, const Event& b) const;
   /// ∫ (x dy - y dx)/2 along the boundary from the lowest point to the event.
   double walked(const Event& e) const;
+  /// Σ change · walked(event).
+  double sum_walked(std::span<const Event> events) const;
   /// A point well inside.
   glm::dvec2 middle() const;
 

@@ -66,11 +66,6 @@ bool edge_is_beyond(const Vec3& a, const Vec3& b, const double* slope, double ma
   });
 }
 
-/// Half the range of n·p over a box of the given half size.
-double reach(const Vec3& n, const Vec3& half) {
-  return std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
-}
-
 }  // namespace
 
 Shaft::Shaft(std::span<const Receiver> receivers, double extent) : margin_(0x1p-44 * extent) {
@@ -121,14 +116,6 @@ bool Shaft::misses(const BandEdge& e) const {
   if (std::min(e.a.z, e.b.z) > top_ + margin_) return true;
   if (edge_is_beyond(e.a, e.b, slope_.data(), margin_)) return true;
   return horizon_ && below_horizons(e.a) && below_horizons(e.b);
-}
-
-bool Shaft::never_silhouette(const BandEdge& e) const {
-  if (!e.has_right) return false;
-  const double left = e.left.value(middle_), right = e.right.value(middle_);
-  if ((left > 0.0) != (right > 0.0)) return false;
-  return std::abs(left) > reach(e.left.normal, half_) + e.left.tolerance &&
-         std::abs(right) > reach(e.right.normal, half_) + e.right.tolerance;
 }
 
 }  // namespace penumbra::detail

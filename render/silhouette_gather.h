@@ -43,8 +43,6 @@ class Shaft {
 
   bool misses(const Vec3& low, const Vec3& high) const;
   bool misses(const BandEdge& edge) const;
-  /// Both faces keep their sides for every receiver of the tile, and the jump is 0.
-  bool never_silhouette(const BandEdge& edge) const;
 
   /// Plane k of the shaft, 0 to kShaftSides: normal·p + offset ≤ 0 inside; the last is the top.
   struct Side {

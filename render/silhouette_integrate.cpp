@@ -65,8 +65,6 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
     event.at.y = end.at.y;
     event.on_chord = end.on_chord;
     event.change = change;
-    event.walked = part.walked(event);
-    sum -= change * event.walked;
     changes += change;
   };
   for (const Segment& s : out.segments) sum += 0.5 * s.jump * cross(s.a, s.b);
@@ -84,7 +82,7 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
     left.b.y = b.at.y;
     left.jump = s.jump;
   }
-  out.integral = sum;
+  out.integral = sum - part.sum_walked(out.events);
   out.closed = changes == 0;
 }
 

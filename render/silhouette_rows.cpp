@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "render/vector_clones.h"
@@ -74,6 +75,22 @@ PENUMBRA_INLINE void sweep_step(const Reals& key, RowLanes& r) {
   r.level += __builtin_bit_cast(Reals, code) - (0x1p52 + 4.0);
 }
 
+/// Puts kNoCrossing behind the ends of some rows, up to one behind the longest; returns how long that is.
+/// `ends`: where each row's next key would be, in numbers, row `lane` beginning at `begin` + lane.
+PENUMBRA_VECTOR_CLONES
+int fill_up(const std::size_t* ends, std::size_t begin, RowKeys* keys) {
+  Integers counts;
+  std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), longest = 0;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const auto count = static_cast<std::int64_t>((ends[lane] - begin) / kLanes);
+    counts[lane] = count;
+    shortest = std::min(shortest, count), longest = std::max(longest, count);
+  }
+  const Reals none = Reals{} + kNoCrossing;
+  for (std::int64_t k = shortest; k <= longest; ++k) keys[k].x = k < counts ? keys[k].x : none;
+  return static_cast<int>(longest);
+}
+
 PENUMBRA_VECTOR_CLONES
 void sweep_lanes(const RowKeys* keys, int count, RowLanes& rows) {
   RowLanes r = rows;
@@ -82,11 +99,6 @@ void sweep_lanes(const RowKeys* keys, int count, RowLanes& rows) {
 }
 
 }  // namespace
-
-/// Crossing k of row i.
-inline void Rows::set_key(int k, int i, double to) {
-  keys_[static_cast<std::size_t>(i / kLanes) * most_ + static_cast<std::size_t>(k)].x[i % kLanes] = to;
-}
 
 /// The first row above y. The same rounding for segments and events, so that levels stay whole.
 inline int Rows::row_above(double y) const {
@@ -103,7 +115,9 @@ void Rows::place_rows(const DiskPart& part, int rows) {
   spacing_ = (part.top() - bottom_) / rows;
   per_spacing_ = 1.0 / spacing_;
   ends_.assign(stride_, {0.0, 0.0});
-  for (int i = 0; i < rows; ++i) ends_[i] = part.span(height(i), DiskPart::half_width(height(i)));
+  heights_.resize(stride_);
+  for (std::size_t i = 0; i < stride_; ++i) heights_[i] = bottom_ + (static_cast<double>(i) + 0.5) * spacing_;
+  for (int i = 0; i < rows; ++i) ends_[i] = part.span(heights_[i], DiskPart::half_width(heights_[i]));
 }
 
 /// Segments that cross a row: at height y those with low < y ≤ high.
@@ -124,26 +138,23 @@ void Rows::cross(const Cut& cut) {
   find_crossing(cut);
   most_ = crossing_count_ + 1;
   keys_.resize(std::max(keys_.size(), most_ * stride_ / kLanes));
-  counts_.assign(stride_, 0);
+  next_.resize(stride_);
+  for (std::size_t i = 0; i < stride_; ++i) next_[i] = i / kLanes * most_ * kLanes + i % kLanes;
+  auto* const keys = reinterpret_cast<double*>(keys_.data());  // vectors may be accessed as their numbers
   for (const CrossingSegment& c : std::span(crossing_).first(crossing_count_)) {
     const Segment& s = *c.segment;
     const bool up = c.to > c.from;
     const glm::dvec2 &low = up ? s.a : s.b, &high = up ? s.b : s.a;
     const double slope = (high.x - low.x) / (high.y - low.y);
     const int change = up ? -s.jump : s.jump;
-    for (int i = std::min(c.from, c.to); i < std::max(c.from, c.to); ++i)
-      set_key(counts_[i]++, i, crossing_key(low.x + slope * (height(i) - low.y), change));
+    for (int i = std::min(c.from, c.to); i < std::max(c.from, c.to); ++i) {
+      keys[next_[i]] = crossing_key(low.x + slope * (heights_[i] - low.y), change);
+      next_[i] += kLanes;
+    }
   }
-  for (int first = 0; first < static_cast<int>(stride_); first += kLanes) {
-    const int longest = longest_from(first);
-    for (int i = first; i < first + kLanes; ++i)
-      for (int k = counts_[i]; k <= longest; ++k) set_key(k, i, kNoCrossing);
-  }
-}
-
-/// The most crossings of a row among those that are swept with row `first`.
-int Rows::longest_from(int first) const {
-  return *std::max_element(counts_.begin() + first, counts_.begin() + first + kLanes);
+  longest_.resize(stride_ / kLanes);
+  for (std::size_t block = 0; block < longest_.size(); ++block)
+    longest_[block] = fill_up(&next_[block * kLanes], block * most_ * kLanes, &keys_[block * most_]);
 }
 
 /// Events on the left side of D change the levels at the left ends of all rows above.
@@ -178,7 +189,7 @@ void Rows::add(const RowLanes& lanes, int first, Sums& sums) const {
     out.lowest_length += lanes.lowest_length[l];
     if (lanes.best[l] <= sums.best[l % 2]) continue;
     sums.best[l % 2] = lanes.best[l];
-    out.aims[l % 2] = {lanes.middle[l], height(first + l)};
+    out.aims[l % 2] = {lanes.middle[l], heights_[first + l]};
   }
 }
 
@@ -204,7 +215,7 @@ RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, const S
 
 RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows) {
   return sweep_with(cut, part, rows, [&](int first, RowLanes& lanes) {
-    const int count = longest_from(first);
+    const int count = longest_[first / kLanes];
     RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kLanes) * most_;
     sort_lanes(keys, count);
     sweep_lanes(keys, count + 1, lanes);  // the last key of all ends the last interval
@@ -214,8 +225,8 @@ RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows) {
 RowSums Rows::sweep_singly(const Cut& cut, const DiskPart& part, int rows) {
   return sweep_with(cut, part, rows, [&](int first, RowLanes& lanes) {
     RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kLanes) * most_;
-    for (int l = 0; l < kLanes; ++l) sort_row(keys, counts_[first + l], l);
-    const int count = longest_from(first);
+    const int count = longest_[first / kLanes];
+    for (int l = 0; l < kLanes; ++l) sort_row(keys, count, l);  // keys of no crossing stay last
     for (int k = 0; k <= count; ++k) sweep_step(keys[k].x, lanes);
   });
 }

@@ -64,10 +64,7 @@ class Rows {
     std::uint64_t seen = 0;
   };
 
-  double height(int row) const { return bottom_ + (row + 0.5) * spacing_; }
   int row_above(double y) const;
-  void set_key(int k, int i, double to);
-  int longest_from(int first) const;
   void place_rows(const DiskPart& part, int rows);
   void find_crossing(const Cut& cut);
   void cross(const Cut& cut);
@@ -81,12 +78,14 @@ class Rows {
   std::size_t stride_ = 0;  ///< rows, rounded up
   double bottom_ = 0.0, spacing_ = 0.0, per_spacing_ = 0.0;
   bool whole_disk_ = false;  ///< the ends of rows are those of the whole disk
+  std::vector<double> heights_;
   std::vector<std::pair<double, double>> ends_;
   std::vector<int> levels_;                ///< at left ends
   std::vector<CrossingSegment> crossing_;  ///< the first crossing_count_
   std::size_t crossing_count_ = 0;
-  std::vector<int> counts_;  ///< crossings of each row
-  std::size_t most_ = 1;     ///< keys a row
+  std::vector<std::size_t> next_;  ///< where each row's next key belongs, in numbers
+  std::vector<int> longest_;       ///< the most crossings of a row, of some rows that are swept together
+  std::size_t most_ = 1;           ///< keys a row
   std::vector<RowKeys>
       keys_;  ///< crossing k of row i is lane i mod kRowLanes of number i/kRowLanes · most + k
 };

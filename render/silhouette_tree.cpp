@@ -182,19 +182,4 @@ std::size_t count_blocks(const std::vector<Siblings>& list) {
   return sum;
 }
 
-void gather_edges(const Band& band, const std::vector<Siblings>& blocks, const Shaft& shaft,
-                  std::vector<std::uint32_t>& out) {
-  out.clear();
-  for (const Siblings& s : blocks)
-    for (std::uint32_t bits = s.kept; bits != 0; bits &= bits - 1) {
-      const std::size_t block =
-          s.parent * BandTree::kFanOut + static_cast<std::size_t>(std::countr_zero(bits));
-      const std::size_t first = block * BandTree::kFanOut;
-      const std::size_t last = std::min(first + BandTree::kFanOut, band.edges.size());
-      for (std::size_t i = first; i < last; ++i)
-        if (!shaft.never_silhouette(band.edges[i]) && !shaft.misses(band.edges[i]))
-          out.push_back(static_cast<std::uint32_t>(i));
-    }
-}
-
 }  // namespace penumbra::detail

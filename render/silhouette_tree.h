@@ -58,8 +58,5 @@ class BandTree {
 
 /// How many blocks.
 std::size_t count_blocks(const std::vector<Siblings>& list);
-/// Of the blocks' edges those that the shaft's receivers may have to look at, ascending.
-void gather_edges(const Band& band, const std::vector<Siblings>& blocks, const Shaft& shaft,
-                  std::vector<std::uint32_t>& out);
 
 }  // namespace penumbra::detail

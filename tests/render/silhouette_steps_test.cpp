@@ -307,7 +307,7 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
     Sifted sifted;
     Sight sight;
     tree.gather(shaft, blocks);
-    gather_edges(band, blocks, shaft, edges);
+    EdgeBlocks(band).gather(blocks, shaft, edges);
     EdgeList list, half;
     list.assign(band, edges, shaft.middle());
     const std::span<const Receiver> few(receivers.data(), 4);
