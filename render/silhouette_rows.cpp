@@ -13,6 +13,7 @@ namespace penumbra::detail {
 namespace {
 
 constexpr int kLanes = kRowLanes;
+constexpr int kFewKeys = 96;            // a row: what sorts them is written down
 constexpr double kLeastLength = 1e-10;  // an interval shorter than that is rounding, not a level
 constexpr double kNoLevel = 1e9;        // above all
 constexpr double kMagic = 0x1.8p52;     // kMagic + n has the integer n in its last bits
@@ -31,15 +32,48 @@ PENUMBRA_INLINE void order(Reals& before, Reals& after) {
   after = p < q ? q : p;
 }
 
-/// Sorts the first `count` keys of some rows: K. Batcher's odd-even merge sort ("Sorting networks and their
-/// applications", 1968), the same exchanges whatever the keys are.
-PENUMBRA_VECTOR_CLONES
-void sort_lanes(RowKeys* keys, int count) {
+/// Calls visit(i, j) for the pairs of keys that are to be put in order, one after the other, to sort `count`
+/// keys whatever they are: K. Batcher's odd-even merge sort ("Sorting networks and their applications",
+/// 1968).
+template <class Visit>
+PENUMBRA_INLINE void for_each_exchange(int count, const Visit& visit) {
   for (int p = 1; p < count; p *= 2)
     for (int k = p; k >= 1; k /= 2)
       for (int j = k % p; j + k < count; j += 2 * k)
         for (int i = j; i < std::min(j + k, count - k); ++i)
-          if ((i & -(2 * p)) == ((i + k) & -(2 * p))) order(keys[i].x, keys[i + k].x);
+          if ((i & -(2 * p)) == ((i + k) & -(2 * p))) visit(i, i + k);
+}
+
+using Exchanges = std::vector<std::array<std::uint8_t, 2>>;
+
+/// The pairs for few keys, written down once.
+const Exchanges& exchanges_of(int count) {
+  static const auto all = [] {
+    std::array<Exchanges, kFewKeys> made;
+    for (int n = 0; n < kFewKeys; ++n)
+      for_each_exchange(n, [&](int i, int j) {
+        made[n].push_back({static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)});
+      });
+    return made;
+  }();
+  return all[count];
+}
+
+PENUMBRA_VECTOR_CLONES
+void sort_few(RowKeys* keys, const std::array<std::uint8_t, 2>* exchanges, std::size_t count) {
+  for (std::size_t e = 0; e < count; ++e) order(keys[exchanges[e][0]].x, keys[exchanges[e][1]].x);
+}
+
+PENUMBRA_VECTOR_CLONES
+void sort_many(RowKeys* keys, int count) {
+  for_each_exchange(count, [keys](int i, int j) { order(keys[i].x, keys[j].x); });
+}
+
+/// Sorts the first `count` keys of some rows.
+void sort_lanes(RowKeys* keys, int count) {
+  if (count >= kFewKeys) return sort_many(keys, count);
+  const Exchanges& exchanges = exchanges_of(count);
+  sort_few(keys, exchanges.data(), exchanges.size());
 }
 
 /// The same for one of the rows.
