@@ -35,10 +35,6 @@ glm::mat3 light_matrix(const LightFrame& axes) {
   return glm::transpose(glm::mat3(glm::vec3(axes.u), glm::vec3(axes.v), glm::vec3(axes.w)));
 }
 
-bool is_same(const DiskLight& a, const DiskLight& b) {
-  return a.center == b.center && a.normal == b.normal && a.radius == b.radius;
-}
-
 }  // namespace
 
 struct DBuffer::Impl {
@@ -157,10 +153,9 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
 /// Casters that hide nothing from the image take no part, nor do they widen the target. Receivers on a floor
 /// are rounded to either side of it, by less than what rays start above it.
 void DBuffer::Impl::find_idle(const DiskLight& light) {
-  const DiskLight in_frame{(light.center - origin) * scale, light.normal, light.radius * scale};
   std::vector<bool> idle;
   for (Caster& caster : casters) {
-    const bool is_idle = caster.planes.is_idle(in_frame, 0.5 * kRayOffset);
+    const bool is_idle = caster.planes.is_idle(light, 0.5 * kRayOffset);
     if (is_idle != caster.idle) outlined.reset();
     caster.idle = is_idle;
     idle.push_back(is_idle);
@@ -224,7 +219,7 @@ void DBuffer::Impl::choose_view(const DBufferOptions& options, Plan& plan) const
 
 /// Classes to facets, stage by stage over all casters; nothing where the light is that of the last frame.
 void DBuffer::Impl::find_outlines(const DiskLight& light, StageClock& clock) {
-  if (outlined && is_same(*outlined, light)) return;
+  if (outlined == light) return;
   outlined.reset();
   outlines.assign(casters.size(), {});
   const auto stage = [&](const char* name, const auto& body) {

@@ -25,7 +25,8 @@ double CasterPlanes::Plane::in_front(const Vec3& p) const {
   return glm::dot(normal, p) - offset;
 }
 
-CasterPlanes::CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double scale) {
+CasterPlanes::CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double scale)
+    : origin_(origin), scale_(scale) {
   if (mesh.triangles().size() > kMostFaces) return;
   std::vector<Vec3> corners;  // three a face
   for (const IndexedTriangle& t : mesh.triangles())
@@ -73,7 +74,8 @@ void CasterPlanes::set_receivers(std::span<const glm::vec4> positions) {
   for (std::size_t k = 0; k < planes_.size(); ++k) planes_[k].nearest = nearest[k];
 }
 
-bool CasterPlanes::is_idle(const DiskLight& light, double slack) const {
+bool CasterPlanes::is_idle(const DiskLight& world, double slack) const {
+  const DiskLight light{(world.center - origin_) * scale_, world.normal, world.radius * scale_};
   std::vector<char> idle(faces_, 0);
   for (const Plane& plane : planes_) {
     if (plane.nearest < -slack) continue;
@@ -101,20 +103,18 @@ std::vector<glm::vec4> ray_origins(const RayFrame& frame, const SurfaceBuffer& s
 
 std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface) {
   constexpr std::size_t kSome = 1009;  // a prime: spread over rows and columns
-  const DiskLight light{frame.to_local(scene.light.center), scene.light.normal,
-                        scene.light.radius * frame.scale};
   std::vector<char> idle(scene.objects.size(), 0);
   std::vector<glm::vec4> some, all;  // when they are needed
   for (std::size_t k = 0; k < idle.size(); ++k) {
     if (!scene.objects[k].casts) continue;
     CasterPlanes planes(scene.objects[k].mesh, frame.origin, frame.scale);
-    if (!planes.is_idle(light)) continue;
+    if (!planes.is_idle(scene.light)) continue;
     if (some.empty()) some = ray_origins(frame, surface, kSome);
     planes.set_receivers(some);  // rules most casters out at little cost
-    if (!planes.is_idle(light)) continue;
+    if (!planes.is_idle(scene.light)) continue;
     if (all.empty()) all = ray_origins(frame, surface, 1);
     planes.set_receivers(all);
-    idle[k] = planes.is_idle(light);
+    idle[k] = planes.is_idle(scene.light);
   }
   return idle;
 }

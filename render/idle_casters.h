@@ -19,13 +19,14 @@ namespace penumbra::detail {
 /// A caster's faces and the planes that they lie in, if it has few.
 class CasterPlanes {
  public:
-  /// Vertices are taken as (p - origin) · scale, the frame of everything below. Cost O(1): a mesh of more
+  /// Planes and receivers are in the frame (p - origin) · scale, p in the scene. Cost O(1): a mesh of more
   /// than a hundred faces or of more than sixteen planes is not looked at, and never idle.
   CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double scale);
-  /// Of the image; the fourth number is 0 where nothing is seen. Cost O(pixels · planes), on all cores.
+  /// Of the image, in the frame; the fourth number is 0 where nothing is seen. Cost O(pixels · planes), on
+  /// all cores.
   void set_receivers(std::span<const glm::vec4> positions);
-  /// True where every face is separated from the light, given in the frame, and from the receivers, by one of
-  /// the planes; receivers may lie behind it by `slack`. Before receivers are set there are none. Cost O(1).
+  /// True where every face is separated from the light and from the receivers by one of the planes; receivers
+  /// may lie behind it by `slack`, in the frame. Before receivers are set there are none. Cost O(1).
   bool is_idle(const DiskLight& light, double slack = 0.0) const;
 
  private:
@@ -38,6 +39,8 @@ class CasterPlanes {
   };
   void add_plane(const std::vector<Vec3>& corners, const Vec3& normal, const Vec3& point);
 
+  Vec3 origin_;
+  double scale_;
   std::vector<Plane> planes_;  ///< each twice, once for either orientation; none where there are many
   std::size_t faces_ = 0;
 };

@@ -18,6 +18,7 @@
 #include "render/silhouette_fuse.h"
 #include "render/silhouette_gather.h"
 #include "render/silhouette_rays.h"
+#include "render/silhouette_receivers.h"
 
 namespace penumbra {
 namespace {
@@ -67,19 +68,6 @@ void add_task(std::vector<RayTask>& tasks, std::uint32_t pixel, const glm::dvec2
   task.receiver = receiver;
 }
 
-/// Sorts receivers into two halves along the longest side of their box; returns where the second begins.
-std::size_t halve(std::span<Receiver> receivers) {
-  Bounds box;
-  for (const Receiver& r : receivers) box.add(r.x);
-  const Vec3 size = box.high - box.low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-  const std::size_t middle = receivers.size() / 2;
-  std::nth_element(receivers.begin(), receivers.begin() + static_cast<std::ptrdiff_t>(middle),
-                   receivers.end(),
-                   [axis](const Receiver& a, const Receiver& b) { return a.x[axis] < b.x[axis]; });
-  return middle;
-}
-
 /// One frame: everything that tiles share, and the result they write to (each its own pixels).
 class Evaluation {
  public:
@@ -94,15 +82,13 @@ class Evaluation {
         blocks_(blocks),
         light_(light),
         options_(options),
-        offset_(receiver_offset(rays.frame())),
+        source_(scene, rays.frame(), surface, light, out),
         slack_(certificate_slack(band.extent)),
         out_(out) {}
 
   void tile(int column, int row, Workspace& w) const;
 
  private:
-  void collect(int column, int row, Workspace& w) const;
-  void add_receiver(std::size_t pixel, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
   bool are_blocks_better(Workspace& w) const;
   void divide(std::size_t first, std::size_t last, Workspace& w) const;
@@ -123,12 +109,14 @@ class Evaluation {
   const EdgeBlocks& blocks_;
   const UnitLight& light_;
   const SilhouetteOptions& options_;
-  const double offset_, slack_;
+  const ReceiverSource source_;
+  const double slack_;
   SilhouetteResult& out_;
 };
 
 void Evaluation::tile(int column, int row, Workspace& w) const {
-  collect(column, row, w);
+  auto& unknown = options_.integrate ? w.fallback : w.open;
+  w.counts.behind_light += source_.collect(column, row, w.receivers, unknown);
   if (w.receivers.empty()) return;
   ++w.counts.tiles;
   w.counts.receivers += w.receivers.size();
@@ -209,49 +197,6 @@ void Evaluation::divide_blocks(std::size_t first, std::size_t last, std::size_t 
   }
   tree_.narrow(list, part, w.blocks[level + 1]);
   divide_blocks(first, last, level + 1, w);
-}
-
-void Evaluation::collect(int column, int row, Workspace& w) const {
-  w.receivers.clear();
-  const int x1 = std::min((column + 1) * kTile, surface_.width),
-            y1 = std::min((row + 1) * kTile, surface_.height);
-  for (int y = row * kTile; y < y1; ++y)
-    for (int x = column * kTile; x < x1; ++x)
-      add_receiver(static_cast<std::size_t>(y) * static_cast<std::size_t>(surface_.width) +
-                       static_cast<std::size_t>(x),
-                   w);
-}
-
-void Evaluation::add_receiver(std::size_t pixel, Workspace& w) const {
-  if (!surface_.hit(pixel)) return;
-  const Vec3& normal = surface_.normal[pixel];
-  const Vec3 world = surface_.position[pixel] + offset_ * normal;
-  const Vec3 x = light_.point(world);
-  // Where the moved point is far in front, so is the point itself; the exact predicate is not asked.
-  if (!(x.z > 2.0 * offset_ * light_.per_radius()) && is_behind(scene_.light, surface_.position[pixel])) {
-    out_.visibility[pixel] = 0.0f;
-    out_.region[pixel] = 2;
-    ++w.counts.behind_light;
-    return;
-  }
-  if (!(x.z > 0.0)) {  // only the offset has moved it behind the light's plane
-    (options_.integrate ? w.fallback : w.open).push_back(static_cast<std::uint32_t>(pixel));
-    return;
-  }
-  const Vec3 n = light_.direction(normal);
-  // The center's height over the tangent plane, and how far the plane falls or rises across the disk.
-  const double center = -glm::dot(n, x), fall2 = n.x * n.x + n.y * n.y;
-  const bool cuts = center * center < fall2;
-  if (!cuts && !(center > 0.0)) {
-    out_.visibility[pixel] = 0.0f;
-    return;
-  }
-  Receiver& r = w.receivers.emplace_back();  // in place, see add_task
-  r.x = x;
-  r.normal = n;
-  r.horizon = cuts ? chord_of_plane(n, x, 1.0) : no_horizon();
-  r.horizon_cuts = cuts;
-  r.pixel = static_cast<std::uint32_t>(pixel);
 }
 
 void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) const {

@@ -12,6 +12,8 @@ struct DiskLight {
   Vec3 center{0.0};  ///< scene units
   Vec3 normal{0.0, -1.0, 0.0};
   double radius = 0.0;  ///< scene units, ≥ 0
+
+  bool operator==(const DiskLight&) const = default;  ///< the same bits (0 and -0 count as equal)
 };
 
 /// An orthonormal frame of the light: `w` along the normal; u × v = w. Deterministic in the normal's bits.

@@ -135,9 +135,8 @@ OverlayMaker::~OverlayMaker() {
 }
 
 bool OverlayMaker::fits(const State& state) const {
-  const DiskLight &a = state.light, &b = made_for_.light;
-  return state.model == made_for_.model && a.center == b.center && a.normal == b.normal &&
-         a.radius == b.radius && same_lists(state.overlays, made_for_.overlays);
+  return state.model == made_for_.model && state.light == made_for_.light &&
+         same_lists(state.overlays, made_for_.overlays);
 }
 
 std::shared_ptr<const OverlayGeometry> OverlayMaker::update(const State& state) {

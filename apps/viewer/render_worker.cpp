@@ -17,10 +17,6 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool same(const DiskLight& a, const DiskLight& b) {
-  return a.center == b.center && a.normal == b.normal && a.radius == b.radius;
-}
-
 bool is_reference(const RenderOptions& options) {
   return options.method == Method::kReference;
 }
@@ -157,7 +153,7 @@ void RenderWorker::adopt(const RenderJob& job) {
   scene_.radiance = job.radiance;
   scene_.camera = job.camera;
   // A draft does without the last digits that the rays' frame gives.
-  const bool follows = !renderer_ || (!job.moving && !same(followed_, job.light));
+  const bool follows = !renderer_ || (!job.moving && followed_ != job.light);
   if (!follows) return;
   if (renderer_)
     renderer_->follow_light(job.sides.front());

@@ -7,9 +7,8 @@ constexpr auto kStill = std::chrono::milliseconds(150);
 constexpr int kRefineTo = 8'192;
 
 bool same_picture(const State& a, const State& b) {
-  return a.model == b.model && a.light.center == b.light.center && a.light.normal == b.light.normal &&
-         a.light.radius == b.light.radius && a.radiance == b.radiance && a.camera.eye == b.camera.eye &&
-         a.camera.target == b.camera.target && a.camera.up == b.camera.up &&
+  return a.model == b.model && a.light == b.light && a.radiance == b.radiance &&
+         a.camera.eye == b.camera.eye && a.camera.target == b.camera.target && a.camera.up == b.camera.up &&
          a.camera.fov_y_degrees == b.camera.fov_y_degrees && a.left.width == b.left.width &&
          a.left.height == b.left.height && a.two_sided() == b.two_sided() && a.revision == b.revision &&
          a.overlays.textures == b.overlays.textures;
