@@ -12,7 +12,7 @@ namespace {
 constexpr int kMostLevels = 256;        // either way from the lowest point's; deeper ones count as the last
 constexpr double kLeastLength = 1e-10;  // an interval shorter than that is rounding, not a level
 constexpr double kLeastRoom = 1e-3;     // beside a chain, for a ray
-constexpr std::size_t kMostForSlabs = 20;  // segments; beyond, rows are faster and no less exact
+constexpr std::size_t kMostForSlabs = 20;  // segments; beyond, rows are faster and err by less than .001
 
 /// ∫ √(1 - y²) dy from 0 to each height.
 PENUMBRA_VECTOR_CLONES
