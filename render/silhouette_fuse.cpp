@@ -12,6 +12,7 @@ namespace {
 constexpr int kMostLevels = 256;        // either way from the lowest point's; deeper ones count as the last
 constexpr double kLeastLength = 1e-10;  // an interval shorter than that is rounding, not a level
 constexpr double kLeastRoom = 1e-3;     // beside a chain, for a ray
+constexpr std::size_t kMany = 256;      // segments; fewer need fewer rows for the same error
 constexpr std::size_t kMostForSlabs = 20;  // segments; beyond, rows are faster and err by less than .001
 
 /// ∫ √(1 - y²) dy from 0 to each height.
@@ -172,7 +173,9 @@ Fused Fuser::by_rows(const Cut& cut, const DiskPart& part, int rows) {
 
 void Fuser::fuse(const Cut& cut, const DiskPart& part, int rows, Fused& out) {
   if (fuse_chain(cut, part, out)) return;
-  out = cut.segments.size() <= kMostForSlabs ? by_slabs(cut, part) : by_rows(cut, part, rows);
+  const std::size_t segments = cut.segments.size();
+  out = segments <= kMostForSlabs ? by_slabs(cut, part)
+                                  : by_rows(cut, part, segments < kMany ? (3 * rows + 3) / 4 : rows);
 }
 
 }  // namespace penumbra::detail
