@@ -20,7 +20,8 @@ class EdgeBlocks {
   explicit EdgeBlocks(const Band& band);
 
   /// Of the list's edges those that the shaft's receivers may have to look at, by their indices in the band,
-  /// ascending.
+  /// ascending: all but those whose faces keep their sides for all receivers, or that the shaft misses. Cost
+  /// O(edges of the list). Compiled for several instruction sets with the same result.
   void gather(const std::vector<Siblings>& list, const Shaft& shaft, std::vector<std::uint32_t>& out) const;
   /// Edges by their indices in the band, ascending. Cost: some 5 flops an edge of the list, 13 of those
   /// blocks that are not dropped. Compiled for several instruction sets with the same result.

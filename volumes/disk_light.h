@@ -13,7 +13,7 @@ struct DiskLight {
   Vec3 normal{0.0, -1.0, 0.0};
   double radius = 0.0;  ///< scene units, ≥ 0
 
-  bool operator==(const DiskLight&) const = default;  ///< the same bits (0 and -0 count as equal)
+  bool operator==(const DiskLight&) const = default;  ///< number by number
 };
 
 /// An orthonormal frame of the light: `w` along the normal; u × v = w. Deterministic in the normal's bits.
