@@ -8,12 +8,13 @@
 
 #include "mesh/error.h"
 #include "mesh/vertex_rings.h"
+#include "render/background.h"
 #include "render/d_buffer_passes.h"
 #include "render/d_buffer_pictures.h"
 #include "render/d_buffer_shading.h"
 #include "render/gl/state_scope.h"
 #include "render/idle_casters.h"
-#include "render/ray_scene.h"
+#include "render/ray_scene_impl.h"
 #include "volumes/volumes.h"
 
 namespace penumbra {
@@ -80,7 +81,8 @@ struct DBuffer::Impl {
   static nlohmann::json count(const Plan& plan);
   detail::UvBounds caster_window(const detail::LightSpace& space, double far_weight) const;
   double far_weight(const detail::LightSpace& space) const;
-  void draw(const Plan& plan, const DBufferOptions& options, StageClock& clock);
+  void find_entries(const DiskLight& light, Plan& plan, StageClock& clock);
+  void prepare_layers(const Plan& plan, const DBufferOptions& options);
 
   gl::Context& context;
   const gl::Functions& gl;
@@ -293,30 +295,31 @@ nlohmann::json DBuffer::Impl::count(const Plan& plan) {
           {"entry_triangles", (plan.geometry.penumbra.size() + plan.geometry.umbra.size()) / 3}};
 }
 
-void DBuffer::Impl::draw(const Plan& plan, const DBufferOptions& options, StageClock& clock) {
+/// All that is drawn but occluders.
+void DBuffer::Impl::find_entries(const DiskLight& light, Plan& plan, StageClock& clock) {
+  find_outlines(light, clock);
+  find_boundaries(light, plan, clock);
+  find_geometry(plan);
+  clock.finish("facets");
+}
+
+/// Textures, and the state that drawing into them needs.
+void DBuffer::Impl::prepare_layers(const Plan& plan, const DBufferOptions& options) {
   const int count = std::max(1, static_cast<int>(plan.targets.size()));
   if (!layers || layers->size != options.size || layers->count != count ||
       layers->entries != options.entries) {
     layers.reset();  // before the new ones take memory
     layers = std::make_unique<detail::DBufferLayers>(gl, options.size, count, options.entries);
   }
-  passes.upload_entries(plan.geometry);
-  gl.Finish();
-  clock.finish("upload");
-
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   gl.Viewport(0, 0, options.size, options.size);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_GREATER);
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-  passes.draw_occluders(plan.targets, plan.axes, plan.offset, plan.receivers, *layers, options);
-  gl.Finish();
-  clock.finish("occluders");
-  passes.draw_entries(plan.targets, *layers, options);
-  gl.Finish();
-  clock.finish("entries");
 }
 
+/// Occluders are drawn while entries are found, and image tiles chosen while entries are drawn: OpenGL leaves
+/// a core idle for most of its time.
 DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options,
                                    const Progress& progress) {
   DBufferFrame frame;
@@ -328,16 +331,29 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   find_idle(light);
   choose_view(options, plan);
   clock.finish("receivers");
-  find_outlines(light, clock);
-  find_boundaries(light, plan, clock);
-  find_geometry(plan);
-  clock.finish("facets");
+  {
+    detail::Background finding(rays.impl().arena, [&] { find_entries(light, plan, clock); });
+    prepare_layers(plan, options);
+    passes.draw_occluders(plan.targets, plan.axes, plan.offset, plan.receivers, *layers, options);
+    gl.Flush();
+    finding.wait();
+  }
   frame.counts = count(plan);
-  report(progress, 0.2);
-  draw(plan, options, clock);
+  gl.Finish();
+  clock.finish("occluders");
+  report(progress, 0.3);
+  std::vector<glm::vec2> tiles;
+  {
+    detail::Background choosing(rays.impl().arena, [&] {
+      tiles = shading.tiles(plan.view(), plan.receivers, plan.geometry, options);
+    });
+    passes.upload_entries(plan.geometry);
+    passes.draw_entries(plan.targets, *layers, options);
+    gl.Finish();
+  }
+  clock.finish("entries");
   report(progress, 0.6);
-  frame.visibility =
-      shading.shade(light, plan.view(), plan.receivers, plan.geometry, *layers, passes.records(), options);
+  frame.visibility = shading.shade(light, plan.view(), tiles, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
   frame.counts["idle_casters"] = std::ranges::count_if(casters, &Caster::idle);

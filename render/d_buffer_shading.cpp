@@ -178,15 +178,16 @@ void DBufferShading::shade_pixels(const Program& program, const DBufferView& vie
   gl_.DrawArrays(GL_TRIANGLES, 0, tile_vertices_);
 }
 
-/// The parts of the image that the passes visit, at depth 0.5: all, where the visibility without entries is
-/// not known yet.
-void DBufferShading::choose_tiles(const DBufferView& view, const ReceiverGrid& grid,
-                                  const EntryGeometry& geometry, const DBufferOptions& options) {
-  std::vector<glm::vec2> tiles;
-  if (!is_known(options, static_cast<int>(view.targets.size())) || grid.is_everywhere())
-    tiles = whole_image();
-  else if (!view.targets.empty())
-    tiles = tiles_with_entries(receivers(view), grid, geometry, view.targets[0]);
+std::vector<glm::vec2> DBufferShading::tiles(const DBufferView& view, const ReceiverGrid& grid,
+                                             const EntryGeometry& geometry,
+                                             const DBufferOptions& options) const {
+  if (!is_known(options, static_cast<int>(view.targets.size())) || grid.is_everywhere()) return whole_image();
+  if (view.targets.empty()) return {};
+  return tiles_with_entries(receivers(view), grid, geometry, view.targets[0]);
+}
+
+/// The passes draw them at depth 0.5.
+void DBufferShading::upload_tiles(const std::vector<glm::vec2>& tiles) {
   tile_vertices_ = static_cast<GLsizei>(tiles.size());
   gl_.BindVertexArray(tile_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_);
@@ -217,11 +218,10 @@ void DBufferShading::check(const DiskLight& light, std::vector<float>& visibilit
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
 /// second.
 std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferView& view,
-                                         const ReceiverGrid& grid, const EntryGeometry& geometry,
-                                         const DBufferLayers& layers, GLuint records,
-                                         const DBufferOptions& options) {
+                                         const std::vector<glm::vec2>& tiles, const DBufferLayers& layers,
+                                         GLuint records, const DBufferOptions& options) {
   Programs& with = programs(view, options);
-  choose_tiles(view, grid, geometry, options);
+  upload_tiles(tiles);
   gl_.Viewport(0, 0, width_, height_);
   if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, records);
   const GLenum color = GL_COLOR_ATTACHMENT0;

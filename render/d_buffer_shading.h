@@ -38,11 +38,15 @@ class DBufferShading {
   /// Who will read the only target, after trace_center.
   ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
 
-  /// Visibility of every pixel. `grid` says who reads what, as from receiver_grid, or is everywhere. The
-  /// framebuffer that is bound is used and its attachments are replaced. `records` is the buffer texture of
-  /// facets.
-  std::vector<float> shade(const DiskLight& light, const DBufferView& view, const ReceiverGrid& grid,
-                           const EntryGeometry& geometry, const DBufferLayers& layers, GLuint records,
+  /// The parts of the image that shading visits, as from d_buffer_tiles.h: all, where the visibility without
+  /// entries is not known yet. `grid` says who reads what, as from receiver_grid, or is everywhere. Makes no
+  /// use of OpenGL.
+  std::vector<glm::vec2> tiles(const DBufferView& view, const ReceiverGrid& grid,
+                               const EntryGeometry& geometry, const DBufferOptions& options) const;
+  /// Visibility of every pixel. The framebuffer that is bound is used and its attachments are replaced.
+  /// `records` is the buffer texture of facets.
+  std::vector<float> shade(const DiskLight& light, const DBufferView& view,
+                           const std::vector<glm::vec2>& tiles, const DBufferLayers& layers, GLuint records,
                            const DBufferOptions& options);
   /// Pixels of the last image whose visibility was asked of rays, since entries contradicted each other.
   std::size_t sampled() const { return sampled_; }
@@ -51,8 +55,7 @@ class DBufferShading {
   struct Programs;
   ImageReceivers receivers(const DBufferView& view) const;
   Programs& programs(const DBufferView& view, const DBufferOptions& options);
-  void choose_tiles(const DBufferView& view, const ReceiverGrid& grid, const EntryGeometry& geometry,
-                    const DBufferOptions& options);
+  void upload_tiles(const std::vector<glm::vec2>& tiles);
   void test_center_by_depth(const Programs& programs, const DBufferView& view, const DBufferLayers& layers,
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,

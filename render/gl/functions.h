@@ -46,6 +46,7 @@ using ProcLoader = void* (*)(const char* name);
   X(Enable, PFNGLENABLEPROC)                                   \
   X(EnableVertexAttribArray, PFNGLENABLEVERTEXATTRIBARRAYPROC) \
   X(Finish, PFNGLFINISHPROC)                                   \
+  X(Flush, PFNGLFLUSHPROC)                                     \
   X(FramebufferTextureLayer, PFNGLFRAMEBUFFERTEXTURELAYERPROC) \
   X(FramebufferTexture2D, PFNGLFRAMEBUFFERTEXTURE2DPROC)       \
   X(GenBuffers, PFNGLGENBUFFERSPROC)                           \
