@@ -313,7 +313,7 @@ void for_each_tile(const RayScene& rays, const SurfaceBuffer& surface, Spaces& s
   std::atomic<bool> stop{false};
   std::mutex reporting;
   rays.impl().arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 8),
+    tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1),
                       [&](const tbb::blocked_range<int>& range) {
                         if (stop) return;
                         Workspace& w = spaces.local();
