@@ -30,6 +30,10 @@ RTCGeometry make_geometry(RTCDevice device, const TriangleMesh& mesh, const RayF
   return geometry;
 }
 
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
 }  // namespace
 
 RayFrame ray_frame(const Scene& scene) {
@@ -48,7 +52,8 @@ RayFrame ray_frame(const Scene& scene) {
   return frame;
 }
 
-RayScene::Impl::Impl(const Scene& scene, const RayFrame& frame, int threads) : arena(thread_count(threads)) {
+RayScene::Impl::Impl(const Scene& scene, const RayFrame& frame, int threads)
+    : arena(thread_count(threads)), scene_(scene), frame_(frame) {
   device = rtcNewDevice(nullptr);
   if (!device)
     throw SystemError("Embree does not start: no device (error " +
@@ -77,10 +82,26 @@ RayScene::Impl::~Impl() {
   rtcReleaseDevice(device);
 }
 
+const detail::SceneEdges& RayScene::Impl::edges() const {
+  std::call_once(edges_once_, [&] {
+    const auto start = std::chrono::steady_clock::now();
+    const auto make = [&] {
+      edges_ = std::make_unique<detail::SceneEdges>(scene_, frame_.origin, frame_.scale);
+    };
+    arena.execute([&] { tbb::this_task_arena::isolate(make); });  // takes no work that may ask for edges
+    edges_ms_ = milliseconds_since(start);
+  });
+  return *edges_;
+}
+
 RayScene::RayScene(const Scene& scene, int threads) : frame_(ray_frame(scene)) {
   const auto start = std::chrono::steady_clock::now();
   impl_ = std::make_unique<Impl>(scene, frame_, threads);
-  build_ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  build_ms_ = milliseconds_since(start);
+}
+
+double RayScene::edge_hierarchy_ms() const {
+  return impl_->edges_ms();
 }
 
 RayScene::~RayScene() = default;

@@ -35,6 +35,9 @@ class RayScene {
 
   const RayFrame& frame() const { return frame_; }
   double build_ms() const { return build_ms_; }
+  /// The accurate rung's hierarchy over all edges of casters (scene_edges.h), made when it is first used; 0
+  /// before.
+  double edge_hierarchy_ms() const;
 
   struct Impl;
   const Impl& impl() const { return *impl_; }

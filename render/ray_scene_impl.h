@@ -4,8 +4,12 @@
 #include <embree3/rtcore.h>
 #include <tbb/task_arena.h>
 
+#include <memory>
+#include <mutex>
+
 #include "mesh/error.h"
 #include "render/ray_scene.h"
+#include "render/scene_edges.h"
 
 namespace penumbra {
 
@@ -24,6 +28,17 @@ struct RayScene::Impl {
   RTCScene all = nullptr;      ///< what the camera sees
   RTCScene casters = nullptr;  ///< what hides the light
   mutable tbb::task_arena arena;
+
+  /// Made when it is first asked for.
+  const detail::SceneEdges& edges() const;
+  double edges_ms() const { return edges_ms_; }
+
+ private:
+  Scene scene_;  ///< meshes are shared with the caller's
+  RayFrame frame_;
+  mutable std::once_flag edges_once_;
+  mutable std::unique_ptr<detail::SceneEdges> edges_;
+  mutable double edges_ms_ = 0.0;
 };
 
 }  // namespace penumbra

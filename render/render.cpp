@@ -53,7 +53,6 @@ nlohmann::json to_json(const std::vector<StageTime>& stages) {
 
 nlohmann::json to_json(const SilhouetteCounts& c) {
   return {{"faces", c.faces},
-          {"mixed_faces", c.mixed_faces},
           {"idle_casters", c.idle_casters},
           {"mesh_edges", c.mesh_edges},
           {"band_edges", c.band_edges},
@@ -74,7 +73,8 @@ nlohmann::json to_json(const SilhouetteCounts& c) {
           {"rays", c.rays},
           {"second_rays", c.second_rays},
           {"fallback", c.fallback},
-          {"bytes", c.bytes}};
+          {"bytes", c.bytes},
+          {"hierarchy_bytes", c.hierarchy_bytes}};
 }
 
 nlohmann::json to_json(const OcclusionOptions& o) {
@@ -310,7 +310,8 @@ RenderResult Renderer::render_frame(const RenderOptions& options) {
   for (const SceneObject& object : state_->scene.objects) faces += object.mesh.triangles().size();
   out.stats["stages"] = to_json(out.stages);
   out.stats["frame_ms"] = out.frame_ms;
-  out.stats["setup_ms"] = {{"ray_scene", state_->rays.build_ms()}};
+  out.stats["setup_ms"] = {{"ray_scene", state_->rays.build_ms()},
+                           {"edge_hierarchy", state_->rays.edge_hierarchy_ms()}};
   out.stats["width"] = options.width;
   out.stats["height"] = options.height;
   out.stats["seed"] = options.reference.seed;

@@ -353,13 +353,14 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   SilhouetteResult out;
   out.visibility.assign(surface.size(), 1.0f);
   out.region.assign(surface.size(), -1);
+  const SceneEdges& edges = rays.impl().edges();
   StageClock clock;
   const UnitLight light(scene.light);
   Band band;
   rays.impl().arena.execute([&] {
     const std::vector<char> idle = find_idle_casters(scene, rays.frame(), surface);
     out.counts.idle_casters = static_cast<std::size_t>(std::count(idle.begin(), idle.end(), char{1}));
-    band = make_band(scene, light, idle);
+    band = make_band(scene, light, edges, idle);
   });
   clock.finish("band");
   const BandTree tree = rays.impl().arena.execute([&] { return BandTree(band); });
@@ -384,11 +385,11 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
     clock.finish("fallback");
   }
   out.counts.faces = band.faces;
-  out.counts.mixed_faces = band.mixed_faces;
   out.counts.mesh_edges = band.mesh_edges;
   out.counts.band_edges = band.edges.size();
   out.counts.cut_edges = band.cut_edges;
   out.counts.bytes += band.edges.size() * sizeof(BandEdge) + tree.bytes() + blocks.bytes();
+  out.counts.hierarchy_bytes = edges.bytes();
   out.stages = clock.stages();
   return out;
 }

@@ -36,7 +36,7 @@ struct SilhouetteOptions {
 
 struct SilhouetteCounts {
   std::size_t idle_casters = 0;  ///< that hide nothing from any receiver, and are not among the following
-  std::size_t faces = 0, mixed_faces = 0, mesh_edges = 0, band_edges = 0, cut_edges = 0;
+  std::size_t faces = 0, mesh_edges = 0, band_edges = 0, cut_edges = 0;
   std::size_t receivers = 0;  ///< in front of the light, with some of it above the horizon
   std::size_t certified_lit = 0, certified_umbra = 0, behind_light = 0;
   std::size_t tiles = 0, empty_tiles = 0;  ///< with receivers; of these, without edges
@@ -50,6 +50,8 @@ struct SilhouetteCounts {
   std::size_t rays = 0, second_rays = 0;
   std::size_t fallback = 0;  ///< receivers left to rays, see fallback_samples
   std::size_t bytes = 0;     ///< of the band, its tree and all threads' lists at their longest
+  std::size_t hierarchy_bytes = 0;  ///< of the hierarchy over all edges of casters (scene_edges.h), made once
+                                    ///< a RayScene and in no stage
 };
 
 struct SilhouetteResult {
@@ -61,7 +63,7 @@ struct SilhouetteResult {
   SilhouetteCounts counts;
 };
 
-/// Cost: faces, plus band edges near each tile, plus per receiver its part's list (blocks of eight edges
+/// Cost: vertices (their box), plus the band, plus band edges near each tile, plus per receiver its part's list (blocks of eight edges
 /// where it is long and the surface is fine) and s log s for s segments across the disk. On all cores of
 /// `rays`; the result does not depend on their number. Requires a light of radius > 0 (UsageError). Throws
 /// Cancelled.

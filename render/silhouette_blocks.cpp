@@ -9,21 +9,18 @@
 namespace penumbra::detail {
 namespace {
 
-using Block = EdgeBlocks::Block;
-using Plane = EdgeBlocks::Plane;
-
 struct FloatPoint {
   explicit FloatPoint(const Vec3& p)
       : x(static_cast<float>(p.x)), y(static_cast<float>(p.y)), z(static_cast<float>(p.z)) {}
   float x, y, z;
 };
 
-PENUMBRA_INLINE void value_at(const FloatPoint& p, const Plane& plane, Floats& out) {
+PENUMBRA_INLINE void value_at(const FloatPoint& p, const PlaneLanes& plane, Floats& out) {
   out = plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.offset;
 }
 
 /// The jumps of eight edges: 0 where dismissed.
-PENUMBRA_INLINE void jumps_of(const Block& b, const FloatPoint& p, Ints& out) {
+PENUMBRA_INLINE void jumps_of(const EdgePlanes& b, const FloatPoint& p, Ints& out) {
   Floats left, right;
   value_at(p, b.left, left);
   value_at(p, b.right, right);
@@ -35,7 +32,7 @@ PENUMBRA_INLINE void jumps_of(const Block& b, const FloatPoint& p, Ints& out) {
 }
 
 /// Signs of a plane over a box of receivers, 0 where it has none; its tolerance covers the rounding.
-PENUMBRA_INLINE void sides_of(const Plane& plane, const FloatBox& box, Ints& out) {
+PENUMBRA_INLINE void sides_of(const PlaneLanes& plane, const FloatBox& box, Ints& out) {
   const auto& [m, half] = box;
   const Floats value = plane.x * m[0] + plane.y * m[1] + plane.z * m[2] + plane.offset;
   const Floats reach =
@@ -47,32 +44,30 @@ PENUMBRA_INLINE void sides_of(const Plane& plane, const FloatBox& box, Ints& out
 /// Bit i is clear where both faces of edge i keep one side over a box of receivers, the same: then it is not
 /// on the silhouette for any of them.
 PENUMBRA_VECTOR_CLONES
-std::uint32_t may_be_silhouettes(const Block& block, const FloatBox& receivers) {
+std::uint32_t may_be_silhouettes(const EdgePlanes& block, const FloatBox& receivers) {
   Ints left, right;
   sides_of(block.left, receivers, left);
   sides_of(block.right, receivers, right);
   return bits_of(~((left == right) & (left != 0)));
 }
 
-/// Blocks that are not dropped. Without branches, which nothing could predict: a place is written in any case
-/// and stays if it counts.
+constexpr Ints kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
+
+/// Blocks that are not dropped.
 PENUMBRA_VECTOR_CLONES
 std::size_t keep_blocks(const Children* bounds, const Siblings* list, std::size_t count, const ConeTest& cone,
-                        std::uint32_t* __restrict out) {
+                        std::int32_t* __restrict out) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Siblings s = list[i];
     const std::uint32_t kept = s.kept & ~cone.dropped(bounds[s.parent]);
-    for (std::uint32_t child = 0; child < kFloatLanes; ++child) {
-      out[found] = s.parent * kFloatLanes + child;
-      found += kept >> child & 1;
-    }
+    found += store_lanes(kLaneNumbers + static_cast<std::int32_t>(s.parent) * kFloatLanes, kept, out + found);
   }
   return found;
 }
 
 PENUMBRA_VECTOR_CLONES
-std::size_t sift_blocks(const Block* blocks, const std::uint32_t* list, std::size_t count,
+std::size_t sift_blocks(const EdgePlanes* blocks, const std::int32_t* list, std::size_t count,
                         const FloatPoint& at, std::int32_t* __restrict places,
                         std::int32_t* __restrict jumps) {
   const FloatPoint p = at;
@@ -80,11 +75,9 @@ std::size_t sift_blocks(const Block* blocks, const std::uint32_t* list, std::siz
   for (std::size_t i = 0; i < count; ++i) {
     Ints jump;
     jumps_of(blocks[list[i]], p, jump);
-    for (int lane = 0; lane < kFloatLanes; ++lane) {
-      places[found] = static_cast<std::int32_t>(list[i]) * kFloatLanes + lane;
-      jumps[found] = jump[lane];
-      found += jump[lane] != 0 ? 1 : 0;
-    }
+    const std::uint32_t kept = bits_of(jump != 0);
+    store_lanes(kLaneNumbers + list[i] * kFloatLanes, kept, places + found);
+    found += store_lanes(jump, kept, jumps + found);
   }
   return found;
 }
@@ -93,29 +86,18 @@ std::size_t sift_blocks(const Block* blocks, const std::uint32_t* list, std::siz
 
 EdgeBlocks::EdgeBlocks(const Band& band)
     : band_(band), blocks_((band.edges.size() + kFloatLanes - 1) / kFloatLanes) {
+  const auto fill = [&](std::size_t block) {
+    for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
+      const std::size_t i = block * kFloatLanes + lane;
+      if (i < band.edges.size())
+        blocks_[block].set(lane, band.edges[i], band.extent);
+      else
+        blocks_[block].set_idle(lane);
+    }
+  };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size(), 512), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) fill(i);
   });
-}
-
-/// A face that is missing has value 0 and tolerance -1: surely on neither side. Lanes without an edge lie
-/// between two faces that look the same way.
-void EdgeBlocks::fill(std::size_t block) {
-  const auto set = [&](Plane& out, std::size_t lane, const FacePlane& plane) {
-    const double grain = 0x1p-20 * (std::abs(plane.offset) + 4.0 * band_.extent);
-    out.x[lane] = static_cast<float>(plane.normal.x);
-    out.y[lane] = static_cast<float>(plane.normal.y);
-    out.z[lane] = static_cast<float>(plane.normal.z);
-    out.offset[lane] = static_cast<float>(plane.offset);
-    out.tolerance[lane] = plane.tolerance < 0.0 ? -1.0f : static_cast<float>(plane.tolerance + grain);
-  };
-  const FacePlane front{Vec3(0.0), 1.0, -1.0};
-  for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-    const std::size_t i = block * kFloatLanes + lane;
-    const bool is_edge = i < band_.edges.size();
-    set(blocks_[block].left, lane, is_edge ? band_.edges[i].left : front);
-    set(blocks_[block].right, lane, is_edge ? band_.edges[i].right : front);
-  }
 }
 
 void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
@@ -136,10 +118,10 @@ void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
 void EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
                       Sifted& out) const {
   const auto at_least = [](auto& buffer, std::size_t size) { buffer.resize(std::max(buffer.size(), size)); };
-  at_least(out.blocks, list.size() * kFloatLanes + 1);
+  at_least(out.blocks, (list.size() + 1) * kFloatLanes);
   out.looked_into = keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
                                 out.blocks.data());
-  at_least(out.places, out.looked_into * kFloatLanes + 1);
+  at_least(out.places, (out.looked_into + 1) * kFloatLanes);
   at_least(out.jumps, out.places.size());
   out.count = sift_blocks(blocks_.data(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
                           out.places.data(), out.jumps.data());

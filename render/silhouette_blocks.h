@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "render/plane_lanes.h"
 #include "render/silhouette_list.h"
 #include "render/silhouette_tree.h"
 
@@ -31,20 +32,11 @@ class EdgeBlocks {
   int sift_one(std::size_t i, const Vec3& x) const;
 
   const Band& band() const { return band_; }
-  std::size_t bytes() const { return blocks_.size() * sizeof(Block); }
-
-  struct alignas(kFloatLanes * sizeof(float)) Plane {
-    Floats x, y, z, offset, tolerance;
-  };
-  struct Block {
-    Plane left, right;
-  };
+  std::size_t bytes() const { return blocks_.size() * sizeof(EdgePlanes); }
 
  private:
-  void fill(std::size_t block);
-
   const Band& band_;
-  LargeArray<Block> blocks_;
+  LargeArray<EdgePlanes> blocks_;
 };
 
 }  // namespace penumbra::detail

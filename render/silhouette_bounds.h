@@ -1,28 +1,17 @@
-// Accurate rung, in step 2: bounds of eight neighbouring blocks of edges, and what drops them for receivers.
+// Accurate rung, in step 2: what drops blocks of edges for receivers, by the blocks' bounds.
 //
-// All is in float with a margin of 2^-17 M, M the scene's extent in light radii, and times 1 + (M + 1)/z
-// where projection enlarges errors: a sum here has a dozen terms of at most 7 M, each off by 2^-24 of that.
-// What is dropped is farther from the disk than the certificate's slack.
+// In float with the margin of block_bounds.h, M the scene's extent in light radii, and times 1 + (M + 1)/z
+// where projection enlarges errors. What is dropped is farther from the disk than the certificate's slack.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/float_lanes.h"
+#include "render/block_bounds.h"
 #include "render/silhouette_gather.h"
 
 namespace penumbra::detail {
-
-inline constexpr double kBoundsGrain = 0x1p-17;
-
-/// Boxes of eight blocks, and of the planes of their faces the normals and the values at the box's middle;
-/// each a middle and half of a range.
-struct alignas(kFloatLanes * sizeof(float)) Children {
-  std::array<Floats, 3> middle, half, normal, normal_half;
-  Floats across;  ///< the box's half diagonal in x and y
-  Floats value, value_half;
-};
 
 /// normal·p + offset, more than 0 outside, and how much it varies over half a box.
 struct FloatPlane {
@@ -39,41 +28,6 @@ struct FloatPlane {
   }
   std::array<float, 3> normal, steep;
   float offset;
-};
-
-struct FloatBox {
-  FloatBox() = default;
-  FloatBox(const Vec3& m, const Vec3& h) {
-    for (int k = 0; k < 3; ++k) {
-      middle[k] = static_cast<float>(m[k]);
-      half[k] = static_cast<float>(h[k]);
-    }
-  }
-  std::array<float, 3> middle{}, half{};
-};
-
-/// All planes of a block have one sign for receivers in a box.
-PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers) {
-  Floats value = c.value, reach = c.value_half;
-  for (int k = 0; k < 3; ++k) {
-    const Floats d = receivers.middle[k] - c.middle[k];
-    value += c.normal[k] * d;
-    reach +=
-        c.normal_half[k] * (magnitude(d) + receivers.half[k]) + magnitude(c.normal[k]) * receivers.half[k];
-  }
-  return magnitude(value) > reach;
-}
-
-/// Drops blocks for receivers in a box, by the sides of planes alone.
-class SidesTest {
- public:
-  SidesTest(const Vec3& middle, const Vec3& half) : receivers_(middle, half) {}
-  PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
-    return bits_of(are_one_sided(c, receivers_));
-  }
-
- private:
-  FloatBox receivers_;
 };
 
 /// Drops blocks for the receivers of a shaft.

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 
-#include "render/vector_clones.h"
+#include "render/float_lanes.h"
 #include "volumes/detail/vectors.h"
 
 namespace penumbra::detail {
@@ -122,6 +123,27 @@ void mark_beyond(const Columns& columns, std::size_t first, int count, const Flo
   }
 }
 
+/// Places and jumps where the jump is not 0; returns how many. Up to seven more are written.
+PENUMBRA_VECTOR_CLONES
+std::size_t keep_some(const std::int32_t* places, const std::int32_t* jumps, std::size_t count,
+                      std::int32_t* __restrict kept_places, std::int32_t* __restrict kept_jumps) {
+  std::size_t found = 0, i = 0;
+  for (; i + kFloatLanes <= count; i += kFloatLanes) {
+    Ints place, jump;
+    std::memcpy(&place, places + i, sizeof(place));
+    std::memcpy(&jump, jumps + i, sizeof(jump));
+    const std::uint32_t kept = bits_of(jump != 0);
+    store_lanes(place, kept, kept_places + found);
+    found += store_lanes(jump, kept, kept_jumps + found);
+  }
+  for (; i < count; ++i) {
+    kept_places[found] = places[i];
+    kept_jumps[found] = jumps[i];
+    found += jumps[i] != 0 ? 1 : 0;
+  }
+  return found;
+}
+
 /// Adds to outside[i] where both faces of edge first + i keep their sides over a box, and the jump is 0.
 PENUMBRA_VECTOR_CLONES
 void mark_idle(const Columns& columns, std::size_t first, int count, float x, float y, float z, float hx,
@@ -229,18 +251,13 @@ void sift(const EdgeList& list, const Vec3& x, Sifted& out) {
   const Columns columns(list);
   const FloatReceiver receiver = float_receiver(list, x);
   alignas(64) std::int32_t jumps[kChunk];
-  out.places.resize(std::max(out.places.size(), list.size()));
+  out.places.resize(std::max(out.places.size(), list.size() + kFloatLanes));
   out.jumps.resize(out.places.size());
   std::size_t found = 0;
   for (std::size_t first = 0; first < list.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, list.size() - first);
     sift_range(columns, first, static_cast<int>(count), receiver, jumps);
-    const std::int32_t* places = list.places() + first;
-    for (std::size_t i = 0; i < count; ++i) {
-      out.places[found] = places[i];
-      out.jumps[found] = jumps[i];
-      found += jumps[i] != 0 ? 1 : 0;
-    }
+    found += keep_some(list.places() + first, jumps, count, out.places.data() + found, out.jumps.data() + found);
   }
   out.count = found;
 }

@@ -89,7 +89,7 @@ struct Sifted {
   std::vector<std::int32_t> places;
   std::vector<std::int32_t> jumps;  ///< faces on the left minus faces on the right, or kUnsure
   std::size_t looked_into = 0;      ///< blocks, where there are any
-  std::vector<std::uint32_t> blocks;
+  std::vector<std::int32_t> blocks;
 };
 
 /// The edges that a receiver at x must look at, in the list's order. Cost: some 70 flops an edge. Compiled

@@ -8,27 +8,22 @@
 // A block is dropped for a tile where it lies outside of the tile's shaft (silhouette_gather.h), below all
 // horizons, or where the planes of all its faces have one sign for all receivers; silhouette_bounds.h has the
 // margins.
-//
-// Eight siblings are tested at once; lists name them by their parent and a mask.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "render/bounds_tree.h"
 #include "render/silhouette_bounds.h"
 
 namespace penumbra::detail {
 
-/// Some of eight siblings: bit i of `kept` is child 8 parent + i.
-struct Siblings {
-  std::uint32_t parent;
-  std::uint32_t kept;
-};
+std::size_t keep(const ShaftTest& test, const Children* nodes, const Siblings* in, std::size_t count,
+                 Siblings* out);
 
 class BandTree {
  public:
-  static constexpr std::size_t kFanOut = kFloatLanes;
+  static constexpr std::size_t kFanOut = BoundsTree::kFanOut;
 
   /// Block i has edges 8 i and up. Cost O(E), on all cores.
   explicit BandTree(const Band& band);
@@ -41,22 +36,12 @@ class BandTree {
   void narrow(const std::vector<Siblings>& list, std::span<const Receiver> receivers,
               std::vector<Siblings>& out) const;
   /// Bounds of the blocks, by their parents.
-  const Children* blocks() const { return levels_.empty() ? nullptr : levels_[0].data(); }
-  double extent() const { return extent_; }
-  std::size_t bytes() const;
+  const Children* blocks() const { return tree_.blocks(); }
+  double extent() const { return tree_.extent(); }
+  std::size_t bytes() const { return tree_.bytes(); }
 
  private:
-  struct Node;
-  Node node_of(const Band& band, std::size_t first, std::size_t last) const;
-  static Node joined(const Node* first, const Node* last);
-  std::vector<Children> packed(const std::vector<Node>& nodes) const;
-
-  double extent_ = 1.0;
-  Bounds box_;
-  std::vector<std::vector<Children>> levels_;  ///< blocks first
+  BoundsTree tree_;
 };
-
-/// How many blocks.
-std::size_t count_blocks(const std::vector<Siblings>& list);
 
 }  // namespace penumbra::detail

@@ -161,6 +161,11 @@ TEST(Integrate, IsExactForOneChord) {
   }
 }
 
+Band band_of(const Scene& scene) {
+  const RayFrame frame = ray_frame(scene);
+  return make_band(scene, UnitLight(scene.light), SceneEdges(scene, frame.origin, frame.scale));
+}
+
 /// Random triangles between light and receivers as a band.
 Band random_band(Random& random, int count, bool closed) {
   Scene scene = testing::scene_in_light_frame(1.0, {});
@@ -178,7 +183,7 @@ Band random_band(Random& random, int count, bool closed) {
     faces.push_back({first + 2, first + 3, first});
   }
   scene.objects.push_back({"", testing::mesh_of(points, faces), Vec3(0.8), true});
-  return make_band(scene, UnitLight(scene.light));
+  return band_of(scene);
 }
 
 /// A finely divided sphere between light and receivers.
@@ -186,7 +191,7 @@ Band sphere_band(Random& random) {
   Scene scene = testing::scene_in_light_frame(1.0, {});
   const Vec3 middle{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(2, 5)};
   scene.objects.push_back({"", make_icosphere(middle, random.uniform(0.3, 1.5), 5), Vec3(0.8), true});
-  return make_band(scene, UnitLight(scene.light));
+  return band_of(scene);
 }
 
 /// The same segments to the last bit, in any order.

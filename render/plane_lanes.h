@@ -1,0 +1,39 @@
+// The planes of eight edges' faces in float.
+#pragma once
+
+#include "render/band_edge.h"
+#include "render/float_lanes.h"
+
+namespace penumbra::detail {
+
+/// value(x) = (x, y, z)·p + offset as FacePlane has it; beyond ±tolerance its sign is certain for |p| up to
+/// twice the extent that it was made for. A face that is missing has value 0 and tolerance -1.
+struct alignas(kFloatLanes * sizeof(float)) PlaneLanes {
+  Floats x, y, z, offset, tolerance;
+
+  void set(std::size_t lane, const FacePlane& plane, double extent) {
+    const double grain = 0x1p-20 * (std::abs(plane.offset) + 4.0 * extent);
+    x[lane] = static_cast<float>(plane.normal.x);
+    y[lane] = static_cast<float>(plane.normal.y);
+    z[lane] = static_cast<float>(plane.normal.z);
+    offset[lane] = static_cast<float>(plane.offset);
+    tolerance[lane] = plane.tolerance < 0.0 ? -1.0f : static_cast<float>(plane.tolerance + grain);
+  }
+};
+
+struct EdgePlanes {
+  PlaneLanes left, right;
+
+  void set(std::size_t lane, const BandEdge& edge, double extent) {
+    left.set(lane, edge.left, extent);
+    right.set(lane, edge.right, extent);
+  }
+  /// No edge: two faces that look the same way wherever they are seen from.
+  void set_idle(std::size_t lane) {
+    const FacePlane front{Vec3(0.0), 1.0, -1.0};
+    left.set(lane, front, 1.0);
+    right.set(lane, front, 1.0);
+  }
+};
+
+}  // namespace penumbra::detail
