@@ -6,8 +6,10 @@
 // edges that are no silhouette from x have a jump of 0.
 #pragma once
 
+#include <array>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 
 #include "mesh/triangle_mesh.h"
 
@@ -27,16 +29,18 @@ struct FacePlane {
 /// In place of a face that is missing: surely on neither side.
 inline const FacePlane kNoFace{Vec3(0.0), 0.0, -1.0};
 
-/// (Nothing is initialized by itself: a band's memory is first touched by whoever fills it.)
-struct BandEdge {
-  Vec3 a, b;              ///< z ≥ 0
+/// Two lines of the processor's cache, the ends in the first. (Nothing is initialized by itself: a band's
+/// memory is first touched by whoever fills it.)
+struct alignas(64) BandEdge {
+  Vec3 a, b;              ///< in a band: z ≥ 0
   FacePlane left, right;  ///< of the faces that run a → b and b → a; kNoFace without a right one
-  bool has_right;
+  bool has_right() const { return right.tolerance >= 0.0; }
 };
+static_assert(sizeof(BandEdge) == 128);
 
 /// Faces on the left minus faces on the right of a → b, as seen from x.
 inline int jump_at(const BandEdge& e, const Vec3& x) {
-  return (e.left.value(x) > 0.0 ? 1 : -1) + (e.has_right ? (e.right.value(x) > 0.0 ? -1 : 1) : 0);
+  return (e.left.value(x) > 0.0 ? 1 : -1) + (e.has_right() ? (e.right.value(x) > 0.0 ? -1 : 1) : 0);
 }
 
 /// Of a face with these corners in a frame with coordinates up to `extent`.
@@ -49,22 +53,31 @@ inline FacePlane face_plane(const Vec3& a, const Vec3& b, const Vec3& c, double 
   return {n, -glm::dot(n, a), 0x1p-46 * extent * (1.0 + 4.0 * extent * spread)};
 }
 
-/// Of a mesh's face; `to_frame` takes its positions to the frame.
-template <class ToFrame>
-FacePlane face_plane(const TriangleMesh& mesh, std::size_t face, const ToFrame& to_frame, double extent) {
-  const IndexedTriangle& t = mesh.triangles()[face];
-  const auto corner = [&](int k) { return to_frame(mesh.positions()[t[k]]); };
-  return face_plane(corner(0), corner(1), corner(2), extent);
-}
+/// A mesh's arrays.
+struct MeshArrays {
+  explicit MeshArrays(const TriangleMesh& mesh)
+      : positions(mesh.positions()), triangles(mesh.triangles()), edges(mesh.edges()) {}
+  std::span<const Vec3> positions;
+  std::span<const IndexedTriangle> triangles;
+  std::span<const Edge> edges;
 
-/// A mesh's edge in a frame.
-template <class ToFrame>
-BandEdge band_edge(const TriangleMesh& mesh, EdgeId id, const ToFrame& to_frame, double extent) {
-  const Edge& edge = mesh.edges()[index(id)];
-  const bool has_right = !edge.is_boundary();
-  return {to_frame(mesh.position(edge.from)), to_frame(mesh.position(edge.to)),
-          face_plane(mesh, index(edge.left), to_frame, extent),
-          has_right ? face_plane(mesh, index(edge.right), to_frame, extent) : kNoFace, has_right};
-}
+  /// `to_frame` takes positions to the frame.
+  template <class ToFrame>
+  std::array<Vec3, 3> corners(FaceId face, const ToFrame& to_frame) const {
+    const IndexedTriangle& t = triangles[index(face)];
+    return {to_frame(positions[t[0]]), to_frame(positions[t[1]]), to_frame(positions[t[2]])};
+  }
+  template <class ToFrame>
+  FacePlane plane(FaceId face, const ToFrame& to_frame, double extent) const {
+    const auto [a, b, c] = corners(face, to_frame);
+    return face_plane(a, b, c, extent);
+  }
+  template <class ToFrame>
+  BandEdge edge(EdgeId id, const ToFrame& to_frame, double extent) const {
+    const Edge& e = edges[index(id)];
+    return {to_frame(positions[index(e.from)]), to_frame(positions[index(e.to)]),
+            plane(e.left, to_frame, extent), e.is_boundary() ? kNoFace : plane(e.right, to_frame, extent)};
+  }
+};
 
 }  // namespace penumbra::detail

@@ -86,8 +86,8 @@ BlockBounds bounds_of_edges(const BandEdge* first, const BandEdge* last) {
     box.add(e->a);
     box.add(e->b);
     normals.add(e->left.normal);
-    if (e->has_right) normals.add(e->right.normal);
-    open = open || !e->has_right;
+    if (e->has_right()) normals.add(e->right.normal);
+    open = open || !e->has_right();
   }
   if (open) return {box.low, box.high, normals.low, normals.high, -kInfinity, kInfinity};
   BlockBounds out{box.low, box.high, normals.low, normals.high, kInfinity, -kInfinity};

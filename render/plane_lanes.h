@@ -28,9 +28,9 @@ struct EdgePlanes {
     left.set(lane, edge.left, extent);
     right.set(lane, edge.right, extent);
   }
-  /// No edge: two faces that look the same way wherever they are seen from.
+  /// No edge: two faces that look the same way wherever they are seen from, however large what sees them.
   void set_idle(std::size_t lane) {
-    const FacePlane front{Vec3(0.0), 1.0, -1.0};
+    const FacePlane front{Vec3(0.0), 1e30, -1.0};
     left.set(lane, front, 1.0);
     right.set(lane, front, 1.0);
   }

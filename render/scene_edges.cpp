@@ -107,6 +107,8 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
       edges_(neighbours_together(edges_of(scene))),
       planes_((edges_.size() + kLanes - 1) / kLanes) {
   const auto to_frame = [&](const Vec3& p) { return (p - origin) * scale; };
+  std::vector<MeshArrays> meshes;
+  for (const SceneObject& o : scene.objects) meshes.emplace_back(o.mesh);
   std::vector<BlockBounds> bounds(planes_.size());
   const auto fill = [&](std::size_t block) {
     std::array<BandEdge, kLanes> edges;
@@ -117,7 +119,7 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
         continue;
       }
       const SceneEdge& e = edges_[block * kLanes + lane];
-      edges[lane] = band_edge(scene.objects[e.object].mesh, e.id, to_frame, 1.0);
+      edges[lane] = meshes[e.object].edge(e.id, to_frame, 1.0);
       planes_[block].set(lane, edges[lane], 1.0);
     }
     bounds[block] = bounds_of_edges(edges.data(), edges.data() + count);

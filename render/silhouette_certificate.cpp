@@ -128,8 +128,8 @@ double certificate_slack(double extent) {
 }
 
 Projection see(const BandEdge& e, const Vec3& x, double slack) {
-  const double left = e.left.value(x), right = e.has_right ? e.right.value(x) : 0.0;
-  const int jump = (left > 0.0 ? 1 : -1) + (e.has_right ? (right > 0.0 ? -1 : 1) : 0);
+  const double left = e.left.value(x), right = e.has_right() ? e.right.value(x) : 0.0;
+  const int jump = (left > 0.0 ? 1 : -1) + (e.has_right() ? (right > 0.0 ? -1 : 1) : 0);
   const bool sure = std::abs(left) > e.left.tolerance && std::abs(right) > e.right.tolerance;
   if (jump == 0 && sure) return {{}, false};
 

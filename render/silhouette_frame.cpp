@@ -30,20 +30,19 @@ Vec3 cut(const Vec3& a, const Vec3& b) {
 class LitCaster {
  public:
   LitCaster(const TriangleMesh& mesh, const UnitLight& light, double extent)
-      : mesh_(mesh), light_(light), extent_(extent) {
-    box_ = box_of(mesh.positions());
-  }
+      : mesh_(mesh), to_frame_{light}, extent_(extent), box_(box_of(mesh.positions())) {}
 
   const Bounds& box() const { return box_; }
   bool all_in_front() const { return in_front(box_.low); }
 
   bool has_end_in_front(EdgeId id) const {
-    const Edge& e = mesh_.edges()[index(id)];
-    return in_front(light_.point(mesh_.position(e.from))) || in_front(light_.point(mesh_.position(e.to)));
+    const Edge& e = mesh_.edges[index(id)];
+    return in_front(to_frame_(mesh_.positions[index(e.from)])) ||
+           in_front(to_frame_(mesh_.positions[index(e.to)]));
   }
 
   BandEdge edge(EdgeId id) const {
-    BandEdge e = band_edge(mesh_, id, [&](const Vec3& p) { return light_.point(p); }, extent_);
+    BandEdge e = mesh_.edge(id, to_frame_, extent_);
     const Vec3 a = e.a, b = e.b;
     if (!in_front(a)) e.a = cut(a, b);
     if (!in_front(b)) e.b = cut(a, b);
@@ -52,10 +51,10 @@ class LitCaster {
 
   /// Of the edge's faces those that cross the light's plane.
   void add_cut_faces(EdgeId id, std::vector<FaceId>& out) const {
-    const Edge& e = mesh_.edges()[index(id)];
+    const Edge& e = mesh_.edges[index(id)];
     for (const FaceId face : {e.left, e.right}) {
       if (face == kNone<FaceId>) continue;
-      const auto [a, b, c] = corners_of(face);
+      const auto [a, b, c] = mesh_.corners(face, to_frame_);
       if (in_front(a) != in_front(b) || in_front(b) != in_front(c)) out.push_back(face);
     }
   }
@@ -63,8 +62,8 @@ class LitCaster {
   /// The front part of a face that crosses the light's plane ends where it leaves the front and begins again
   /// where it comes back.
   BandEdge cut_edge(FaceId face) const {
-    const auto corners = corners_of(face);
-    BandEdge e{Vec3(0.0), Vec3(0.0), face_plane(corners[0], corners[1], corners[2], extent_), kNoFace, false};
+    const auto corners = mesh_.corners(face, to_frame_);
+    BandEdge e{Vec3(0.0), Vec3(0.0), mesh_.plane(face, to_frame_, extent_), kNoFace};
     for (int k = 0; k < 3; ++k) {
       const Vec3 &p = corners[k], &q = corners[(k + 1) % 3];
       if (in_front(p) != in_front(q)) (in_front(p) ? e.a : e.b) = cut(p, q);
@@ -73,19 +72,13 @@ class LitCaster {
   }
 
  private:
-  std::array<Vec3, 3> corners_of(FaceId face) const {
-    const IndexedTriangle& t = mesh_.triangles()[index(face)];
-    return {light_.point(mesh_.positions()[t[0]]), light_.point(mesh_.positions()[t[1]]),
-            light_.point(mesh_.positions()[t[2]])};
-  }
-
   /// In the light's frame, on all cores.
   Bounds box_of(std::span<const Vec3> points) const {
     return tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, points.size(), 4096), Bounds{},
         [&](const auto& range, Bounds box) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const Vec3 p = light_.point(points[i]);
+            const Vec3 p = to_frame_(points[i]);
             box.low = glm::min(box.low, p);
             box.high = glm::max(box.high, p);
           }
@@ -96,8 +89,13 @@ class LitCaster {
         });
   }
 
-  const TriangleMesh& mesh_;
-  const UnitLight& light_;
+  struct ToFrame {
+    const UnitLight& light;
+    Vec3 operator()(const Vec3& p) const { return light.point(p); }
+  };
+
+  MeshArrays mesh_;
+  ToFrame to_frame_;
   double extent_;
   Bounds box_;
 };

@@ -219,7 +219,7 @@ void EdgeList::fill_columns() {
     columns_[kSize][i] = static_cast<float>(std::max(largest_component(a), largest_component(b)));
     fill_plane(e.left, i, kLx);
     fill_plane(e.right, i, kRx);
-    if (!e.has_right) columns_[kRd][i] = 0.0f, columns_[kRt][i] = -1.0f;
+    if (!e.has_right()) columns_[kRd][i] = 0.0f, columns_[kRt][i] = -1.0f;
   }
 }
 

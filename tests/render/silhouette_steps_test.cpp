@@ -266,7 +266,8 @@ TEST(EdgeBlocks, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
       Sifted sifted, singly;
       blocks.sift(tree, r < 4 ? few : list, receiver, sifted);
       for (std::size_t b = 0; b < sifted.looked_into; ++b)
-        for (std::uint32_t i = 8 * sifted.blocks[b]; i < 8 * sifted.blocks[b] + 8; ++i) {
+        for (std::uint32_t lane = 0; lane < 8; ++lane) {
+          const std::uint32_t i = 8 * static_cast<std::uint32_t>(sifted.blocks[b]) + lane;
           const int jump = blocks.sift_one(i, receiver.x);
           if (jump == 0) continue;
           add_place(static_cast<std::int32_t>(i), jump, singly);
