@@ -2,7 +2,8 @@
 //
 // In: surface points. Out: V per pixel, and for many of them a certificate. Five steps, one header each:
 //
-//   silhouette_frame.h        casters → the silhouette band in the light's frame
+//   silhouette_frame.h        casters → the silhouette band in the light's frame, by a hierarchy over their
+//                             edges that serves every light (scene_edges.h)
 //   silhouette_gather.h       band, 8×8 receivers → the edges they may see across the disk, by a tree over
 //                             blocks of edges (silhouette_tree.h)
 //   silhouette_certificate.h  edges, receiver → segments across the disk; none: wholly lit or wholly in umbra

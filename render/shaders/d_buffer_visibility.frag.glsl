@@ -85,7 +85,7 @@ Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord
   Chord other = cut_by_horizon ? horizon : corner.there ? corner.chord : kWholeDisk;
   float area = convex ? two_half_planes_area(opposite(chord), opposite(other)) : two_half_planes_area(chord, other);
   // Round a hidden center only the point of a wedge in front of the disk leaves more than half of it lit.
-  bool pointed = convex && corner.inside && dot(chord.normal, other.normal) < kBlunt;
+  bool pointed = convex && corner.inside;
   float most = hidden && !(pointed && !overlapped) ? 0.5 : 1.0;
   return Share(min(convex ? 1.0 - area : area, most), chord);
 }
