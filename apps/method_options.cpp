@@ -58,7 +58,7 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
       ->group(group);
   add_choice(
       command, "--visibility", options.curve, visibility_curves(),
-      "Area beyond a chord: exact (with the neighbouring edge at corners), smoothstep 3t²-2t³, or sqrt √t")
+      "Area beyond a chord: exact (of an edge: along the boundary that it is part of), smoothstep 3t²-2t³, or sqrt √t")
       ->group(group);
   add_choice(command, "--conflict", options.conflict, conflicts(),
              "Which of several entries on a line of sight is kept")

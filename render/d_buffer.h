@@ -4,9 +4,9 @@
 // pixel. "Umbra and penumbra volumes" (2004), sections 3 and 4. There a texel stores the distances |cxo|,
 // |cxuv|, |cxpv| and |cxs|; here it stores the occluder's face and depth and *which edge* bounds the penumbra
 // on that line of sight, so that the chord it leaves of the disk is exact for the receiver (no eq. 2 and 3;
-// the distances are an option), and the neighbouring edge at a corner is known. Facets are drawn in
-// (1/z)-linear depth and dilated by a texel, so that no texel that touches the penumbra is empty (towards the
-// border of a hemicube's side by less than one).
+// the distances are an option). The edges next to it are known: the boundary is followed as far as it lies in
+// the disk. Facets are drawn in (1/z)-linear depth and dilated by a texel, so that no texel that touches the
+// penumbra is empty (towards the border of a hemicube's side by less than one).
 #pragma once
 
 #include <memory>
@@ -30,7 +30,7 @@ enum class DBufferContents {
   kDistances,  ///< the 2004 paper's |cxuv|, |cxpv| and |cxs|, with eq. 2 and 3 corrected
 };
 enum class VisibilityCurve {
-  kExact,       ///< the disk's area beyond the chord; with kEdge, with the neighbouring edge at corners too
+  kExact,       ///< the disk's area beyond the chord; with kEdge, beyond the boundary of which it is part
   kSmoothstep,  ///< 3t² - 2t³ (the paper's eq. 4), t = (1 + δ)/2; off by up to 0.039
   kSquareRoot,  ///< √t (the paper's section 6.2, for small occluders)
 };

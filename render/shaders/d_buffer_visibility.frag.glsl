@@ -4,6 +4,7 @@
 // kSquareRoot. ENTRIES: 1 or 2 are kept.
 #include "disk_area.glsl"
 #include "d_buffer_lookup.glsl"
+#include "d_buffer_boundary.glsl"
 
 const int kDistances = 1;
 const int kSmoothstep = 1, kSquareRoot = 2;
@@ -17,30 +18,9 @@ float curve_of(float delta) {
   return CURVE == kSmoothstep ? t * t * (3.0 - 2.0 * t) : CURVE == kSquareRoot ? sqrt(t) : half_plane_area(delta);
 }
 
-const float kBlunt = 0.5;  // cosine of the turn below which a corner counts as part of a smooth chain
 const Chord kWholeDisk = Chord(vec2(1.0, 0.0), 1.0);
 
 Chord opposite(Chord c) { return Chord(-c.normal, -c.delta); }
-
-// Where the line from x through v meets the light's plane, in units of z; far away for what is not nearer to the light.
-vec2 on_disk(vec3 v, vec3 x) { return v.z < x.z ? (v.xy * x.z - x.xy * v.z) / (x.z - v.z) : vec2(1e9); }
-
-// The corner at the end of the edge that is nearer to the disk.
-struct Corner {
-  bool there;
-  Chord chord;  // of the neighbouring edge
-  bool convex;  // the caster hides what both edges hide; else what either does
-  bool inside;  // the disk
-};
-
-Corner nearer_corner(uint facet, vec3 a, vec3 b, vec3 plane, vec3 x) {
-  vec2 pa = on_disk(a, x), pb = on_disk(b, x);
-  bool at_a = dot(pa, pa) < dot(pb, pb);
-  vec4 far = texelFetch(records, int(4u * facet) + (at_a ? 0 : 3));
-  Chord chord = chord_of_plane(at_a ? edge_plane(x, far.xyz, a) : edge_plane(x, b, far.xyz), x, radius);
-  float apart = min(dot(pa, pa), dot(pb, pb));
-  return Corner(far.w > 0.5, chord, dot(plane, far.xyz - x) < 0.0, apart < radius * radius);
-}
 
 // The side of a chord that the disk's center is known to be on: a chord that contradicts it is moved to the center.
 float agreeing(float delta, bool hidden) { return hidden ? min(delta, 0.0) : max(delta, 0.0); }
@@ -66,7 +46,8 @@ struct Share {
   Chord chord;
 };
 
-// Visibility by one edge, and its neighbour at the nearer corner or the horizon.
+// Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what is
+// known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
 Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord horizon) {
   int first = int(4u * facet);
   vec3 a = texelFetch(records, first + 1).xyz, b = texelFetch(records, first + 2).xyz;
@@ -75,19 +56,13 @@ Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord
   bool below = max(dot(r.n, a - r.x), dot(r.n, b - r.x)) <= kOnPlane * r.x.z;  // the receiver's own plane hides it
   if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return Share(-1.0, kWholeDisk);
   if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord);
-  Corner corner = nearer_corner(facet, a, b, plane, r.x);
-  bool cut_by_horizon = horizon.delta < 1.0;
-  // Of what both edges hide, either may leave the center lit; of what either hides, either may hide it.
-  bool explained = corner.there && corner.convex != hidden && (corner.chord.delta < 0.0) == hidden;
-  if (!explained) chord.delta = agreeing(chord.delta, hidden);
-  if (corner.convex == hidden) corner.chord.delta = agreeing(corner.chord.delta, hidden);
-  bool convex = corner.there && corner.convex && !cut_by_horizon;
-  Chord other = cut_by_horizon ? horizon : corner.there ? corner.chord : kWholeDisk;
-  float area = convex ? two_half_planes_area(opposite(chord), opposite(other)) : two_half_planes_area(chord, other);
-  // Round a hidden center only the point of a wedge in front of the disk leaves more than half of it lit.
-  bool pointed = convex && corner.inside;
-  float most = hidden && !(pointed && !overlapped) ? 0.5 : 1.0;
-  return Share(min(convex ? 1.0 - area : area, most), chord);
+  if (horizon.delta >= 1.0) {
+    Past past = past_boundary(facet, a, b, chord, r.x);
+    bool agrees = past.center != hidden && abs(past.area) < 2.0;  // and is a number
+    if (agrees) return Share(clamp(past.area, 0.0, hidden && overlapped ? 0.5 : 1.0), chord);
+  }
+  chord.delta = agreeing(chord.delta, hidden);
+  return Share(two_half_planes_area(chord, horizon), chord);
 }
 
 // Whether the surface that the light's center sees in this direction is not the last one before the receiver.

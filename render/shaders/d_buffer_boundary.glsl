@@ -1,0 +1,125 @@
+// A boundary of the shadow as the receiver sees it on the disk: from the edge of an entry on to its neighbours' edges, as
+// far as they lie in the disk. Exact for one line of edges, convex or not, and for one that closes within the disk.
+// Needs disk_area.glsl and d_buffer_lookup.glsl.
+
+float cross2(vec2 p, vec2 q) { return p.x * q.y - p.y * q.x; }
+
+// Where the line from x through v meets the light's plane, in radii. From w, which lies on that line's disk, v is
+// reached without leaving what is nearer to the light than x.
+vec2 on_disk(vec3 v, vec3 w, vec3 x) {
+  float most = 0.999 * x.z;
+  if (v.z > most) v = w.z < most ? mix(w, v, (most - w.z) / (v.z - w.z)) : w;
+  return (v.xy * x.z - x.xy * v.z) / ((x.z - v.z) * radius);
+}
+
+// From a point in the unit circle along d to the circle.
+vec2 leave(vec2 p, vec2 d) {
+  d = normalize(d);
+  float along = dot(p, d);
+  return p + d * (sqrt(max(0.0, along * along + 1.0 - dot(p, p))) - along);
+}
+
+// A boundary on the disk, followed from one of its edges to where it leaves.
+struct Walk {
+  vec2 at;
+  float twice_area;  // between it and the center, on its left
+  bool odd;          // it crosses the ray from the center along the first axis an odd number of times
+  bool closed;       // it came back to where it began
+  uint last;         // edge
+  // Past a corner outside of the disk the next edge may come back into it: a convex corner's adds to what is lit, the
+  // caster hiding only what both edges hide; another's takes from it.
+  uint next;  // edge, or kNoEdge
+  float more;
+  bool lights, hides;  // the center
+};
+const uint kNoEdge = ~0u;
+
+void step_to(inout Walk w, vec2 q) {
+  float area = cross2(w.at, q);
+  w.twice_area += area;
+  if ((w.at.y > 0.0) != (q.y > 0.0) && (area > 0.0) == (q.y > w.at.y)) w.odd = !w.odd;
+  w.at = q;
+}
+
+// Whether the segment from p, outside of the unit circle, to q meets it.
+bool meets_disk(vec2 p, vec2 q) {
+  vec2 d = q - p;
+  float along = -dot(p, d), area = cross2(p, d), length2 = dot(d, d);
+  return along > 0.0 && area * area < length2 && (along < length2 || dot(q, q) < 1.0);
+}
+
+const int kMostSteps = 16;  // a boundary that goes on is a straight line from there
+
+// From p, in the disk and on the edge's line, past its end b, `pb` on the disk; `side` of its record is what comes then:
+// 3, or 0 where b is the edge's begin.
+Walk walk_past(uint facet, int side, vec2 p, vec2 way, vec3 a, vec3 b, vec2 pb, vec3 x) {
+  Walk w = Walk(p, 0.0, false, false, facet, kNoEdge, 0.0, false, false);
+  vec4 far = texelFetch(records, int(4u * facet) + side);
+  for (int i = 0; i < kMostSteps && far.w > 0.5 && dot(pb, pb) < 1.0; ++i) {
+    step_to(w, pb);
+    w.last = uint(far.w - 0.5);
+    w.closed = w.last == facet;
+    if (w.closed) return w;
+    a = b;
+    b = far.xyz;
+    pb = on_disk(b, a, x);
+    way = pb - w.at;
+    far = texelFetch(records, int(4u * w.last) + side);
+  }
+  if (far.w > 0.5 && dot(pb, pb) >= 1.0 && meets_disk(pb, on_disk(far.xyz, b, x))) {
+    // The lines of both edges meet outside of the disk: it is cut into three.
+    bool on = side == 3;
+    Chord next = chord_of_plane(on ? edge_plane(x, b, far.xyz) : edge_plane(x, far.xyz, b), x, radius);
+    bool convex = dot(on ? edge_plane(x, a, b) : edge_plane(x, b, a), far.xyz - x) < 0.0;
+    float cap = half_plane_area(convex ? next.delta : -next.delta);
+    w.next = uint(far.w - 0.5);
+    w.more = convex ? cap : -cap;
+    w.lights = convex && next.delta >= 0.0;
+    w.hides = !convex && next.delta < 0.0;
+  }
+  step_to(w, leave(w.at, way));
+  return w;
+}
+
+// Whether p lies on the arc from one point of the circle counter-clockwise to the other.
+bool on_arc(vec2 from, vec2 to, vec2 p) {
+  return cross2(from, to) >= 0.0 ? cross2(from, p) >= 0.0 && cross2(p, to) >= 0.0
+                                 : !(cross2(to, p) > 0.0 && cross2(p, from) > 0.0);
+}
+
+struct Past {
+  float area;   // fraction of the disk on the lit side of a boundary
+  bool center;  // the disk's center is on that side
+};
+
+// By Green's theorem round what is lit: along the boundary, then along the circle back to where it came in.
+Past past_boundary(uint facet, vec3 a, vec3 b, Chord chord, vec3 x) {
+  vec2 pa = on_disk(a, b, x), pb = on_disk(b, a, x), way = pb - pa, foot = -chord.delta * chord.normal;
+  bool left_is_lit = cross2(way, chord.normal) > 0.0;
+  Walk on = walk_past(facet, 3, foot, way, a, b, pb, x);
+  if (on.closed) {
+    step_to(on, foot);
+    float inside = on.twice_area / (2.0 * kPi);  // positive where it is on the left
+    return (inside > 0.0) == left_is_lit ? Past(abs(inside), on.odd) : Past(1.0 - abs(inside), !on.odd);
+  }
+  Walk back = walk_past(facet, 0, foot, -way, b, a, pa, x);
+  float angle = accurate_acos(clamp(dot(on.at, back.at), -1.0, 1.0));
+  if (cross2(on.at, back.at) < 0.0) angle = 2.0 * kPi - angle;
+  float left = (on.twice_area - back.twice_area + angle) / (2.0 * kPi);
+  bool center = on_arc(on.at, back.at, vec2(1.0, 0.0)) != (on.odd != back.odd);
+  if (!left_is_lit) {
+    left = 1.0 - left;
+    center = !center;
+  }
+  bool meet = on.next == back.last;  // round a corner outside of the disk
+  bool twice = on.next == back.next;
+  if (on.next != kNoEdge && !meet) {
+    left += on.more;
+    center = (center || on.lights) && !on.hides;
+  }
+  if (back.next != kNoEdge && !meet && !twice) {
+    left += back.more;
+    center = (center || back.lights) && !back.hides;
+  }
+  return Past(left, center);
+}
