@@ -26,6 +26,7 @@ struct Walk {
   bool odd;          // it crosses the ray from the center along the first axis an odd number of times
   bool closed;       // it came back to where it began
   uint last;         // edge
+  bool met;          // the other edge that was asked for
   // Past a corner outside of the disk the next edge may come back into it: a convex corner's adds to what is lit, the
   // caster hiding only what both edges hide; another's takes from it.
   uint next;  // edge, or kNoEdge
@@ -52,12 +53,13 @@ const int kMostSteps = 16;  // a boundary that goes on is a straight line from t
 
 // From p, in the disk and on the edge's line, past its end b, `pb` on the disk; `side` of its record is what comes then:
 // 3, or 0 where b is the edge's begin.
-Walk walk_past(uint facet, int side, vec2 p, vec2 way, vec3 a, vec3 b, vec2 pb, vec3 x) {
-  Walk w = Walk(p, 0.0, false, false, facet, kNoEdge, 0.0, false, false);
+Walk walk_past(uint facet, uint other, int side, vec2 p, vec2 way, vec3 a, vec3 b, vec2 pb, vec3 x) {
+  Walk w = Walk(p, 0.0, false, false, facet, false, kNoEdge, 0.0, false, false);
   vec4 far = texelFetch(records, int(4u * facet) + side);
   for (int i = 0; i < kMostSteps && far.w > 0.5 && dot(pb, pb) < 1.0; ++i) {
     step_to(w, pb);
     w.last = uint(far.w - 0.5);
+    w.met = w.met || w.last == other;
     w.closed = w.last == facet;
     if (w.closed) return w;
     a = b;
@@ -73,6 +75,7 @@ Walk walk_past(uint facet, int side, vec2 p, vec2 way, vec3 a, vec3 b, vec2 pb, 
     bool convex = dot(on ? edge_plane(x, a, b) : edge_plane(x, b, a), far.xyz - x) < 0.0;
     float cap = half_plane_area(convex ? next.delta : -next.delta);
     w.next = uint(far.w - 0.5);
+    w.met = w.met || w.next == other;
     w.more = convex ? cap : -cap;
     w.lights = convex && next.delta >= 0.0;
     w.hides = !convex && next.delta < 0.0;
@@ -90,19 +93,21 @@ bool on_arc(vec2 from, vec2 to, vec2 p) {
 struct Past {
   float area;   // fraction of the disk on the lit side of a boundary
   bool center;  // the disk's center is on that side
+  bool met;     // it has the other edge that was asked for
 };
 
 // By Green's theorem round what is lit: along the boundary, then along the circle back to where it came in.
-Past past_boundary(uint facet, vec3 a, vec3 b, Chord chord, vec3 x) {
+Past past_boundary(uint facet, uint other, vec3 a, vec3 b, Chord chord, vec3 x) {
   vec2 pa = on_disk(a, b, x), pb = on_disk(b, a, x), way = pb - pa, foot = -chord.delta * chord.normal;
   bool left_is_lit = cross2(way, chord.normal) > 0.0;
-  Walk on = walk_past(facet, 3, foot, way, a, b, pb, x);
+  Walk on = walk_past(facet, other, 3, foot, way, a, b, pb, x);
   if (on.closed) {
     step_to(on, foot);
     float inside = on.twice_area / (2.0 * kPi);  // positive where it is on the left
-    return (inside > 0.0) == left_is_lit ? Past(abs(inside), on.odd) : Past(1.0 - abs(inside), !on.odd);
+    return (inside > 0.0) == left_is_lit ? Past(abs(inside), on.odd, on.met)
+                                          : Past(1.0 - abs(inside), !on.odd, on.met);
   }
-  Walk back = walk_past(facet, 0, foot, -way, b, a, pa, x);
+  Walk back = walk_past(facet, other, 0, foot, -way, b, a, pa, x);
   float angle = accurate_acos(clamp(dot(on.at, back.at), -1.0, 1.0));
   if (cross2(on.at, back.at) < 0.0) angle = 2.0 * kPi - angle;
   float left = (on.twice_area - back.twice_area + angle) / (2.0 * kPi);
@@ -121,5 +126,5 @@ Past past_boundary(uint facet, vec3 a, vec3 b, Chord chord, vec3 x) {
     left += back.more;
     center = (center || back.lights) && !back.hides;
   }
-  return Past(left, center);
+  return Past(left, center, on.met || back.met);
 }

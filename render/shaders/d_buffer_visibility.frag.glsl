@@ -44,25 +44,27 @@ Entry second_of(int kind, Texel t) {
 struct Share {
   float visibility;  // -1: the entry says nothing about this receiver
   Chord chord;
+  bool has_other;    // edge: it is part of the same boundary
 };
+const Share kNoShare = Share(-1.0, kWholeDisk, false);
 
 // Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what is
 // known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
-Share share_of_facet(uint facet, bool hidden, bool overlapped, Receiver r, Chord horizon) {
+Share share_of_facet(uint facet, uint other, bool hidden, bool overlapped, Receiver r, Chord horizon) {
   int first = int(4u * facet);
   vec3 a = texelFetch(records, first + 1).xyz, b = texelFetch(records, first + 2).xyz;
   vec3 plane = edge_plane(r.x, a, b);
   Chord chord = chord_of_plane(plane, r.x, radius);
   bool below = max(dot(r.n, a - r.x), dot(r.n, b - r.x)) <= kOnPlane * r.x.z;  // the receiver's own plane hides it
-  if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return Share(-1.0, kWholeDisk);
-  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord);
+  if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return kNoShare;
+  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, false);
   if (horizon.delta >= 1.0) {
-    Past past = past_boundary(facet, a, b, chord, r.x);
+    Past past = past_boundary(facet, other, a, b, chord, r.x);
     bool agrees = past.center != hidden && abs(past.area) < 2.0;  // and is a number
-    if (agrees) return Share(clamp(past.area, 0.0, hidden && overlapped ? 0.5 : 1.0), chord);
+    if (agrees) return Share(clamp(past.area, 0.0, hidden && overlapped ? 0.5 : 1.0), chord, past.met);
   }
   chord.delta = agreeing(chord.delta, hidden);
-  return Share(two_half_planes_area(chord, horizon), chord);
+  return Share(two_half_planes_area(chord, horizon), chord, false);
 }
 
 // Whether the surface that the light's center sees in this direction is not the last one before the receiver.
@@ -75,16 +77,16 @@ bool is_overlapped(Receiver r, Texel t) {
 // with |cxpv| in the other; with every distance along one line written as 1/weight it is (entry - x) / (2 (edge - x)).
 Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   float edge = uintBitsToFloat(e.content);
-  if (r.weight >= e.weight || edge <= r.weight) return Share(-1.0, kWholeDisk);
+  if (r.weight >= e.weight || edge <= r.weight) return kNoShare;
   float t = (e.weight - r.weight) / (2.0 * (edge - r.weight));
-  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk);
+  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, false);
 }
 
-Share share_of(Entry e, bool hidden, Receiver r, Texel t, Chord horizon) {
+Share share_of(Entry e, uint other, bool hidden, Receiver r, Texel t, Chord horizon) {
   if (CONTENTS == kDistances) return share_of_distances(e, r, horizon);
   // What a texel's width is worth on a boundary's slope of 1/radius in (x/z, y/z).
   float slack = t.size * dot(t.direction, t.direction) / (t.direction.z * t.direction.z * radius);
-  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, hidden, is_overlapped(r, t), r, horizon) : Share(-1.0, kWholeDisk);
+  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, other, hidden, is_overlapped(r, t), r, horizon) : kNoShare;
 }
 
 // Two penumbra entries are two occluders: hidden is what either hides. Two umbra entries are two sides of one occluder:
@@ -103,14 +105,19 @@ void main() {
   bool hidden = r.cut < 1.0;
   int kind = kind_of_entries(hidden, r, t);
   bool umbra = kind != kPenumbra;
-  Share first = share_of(first_of(kind, t), hidden, r, t, horizon), second = Share(-1.0, kWholeDisk);
+  Entry one = first_of(kind, t);
+  Share second = kNoShare;
 #if ENTRIES > 1
-  Entry e = second_of(kind, t);
-  if (e.content != kEmpty && horizon.delta >= 1.0) second = share_of(e, hidden, r, t, horizon);
+  Entry two = second_of(kind, t);
+  Share first = share_of(one, two.content - 1u, hidden, r, t, horizon);
+  if (two.content != kEmpty && horizon.delta >= 1.0 && !first.has_other)
+    second = share_of(two, kNoEdge, hidden, r, t, horizon);
   if (first.visibility < 0.0) {
     first = second;
-    second.visibility = -1.0;
+    second = kNoShare;
   }
+#else
+  Share first = share_of(one, kNoEdge, hidden, r, t, horizon);
 #endif
   if (first.visibility < 0.0) {
     visibility = hidden ? 0.0 : half_plane_area(horizon.delta);
