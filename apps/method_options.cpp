@@ -56,9 +56,9 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
       ->check(CLI::Range(1, 2))
       ->capture_default_str()
       ->group(group);
-  add_choice(
-      command, "--visibility", options.curve, visibility_curves(),
-      "Area beyond a chord: exact (of an edge: along the boundary that it is part of), smoothstep 3t²-2t³, or sqrt √t")
+  add_choice(command, "--visibility", options.curve, visibility_curves(),
+             "Area beyond a chord: exact (of an edge: along the boundary that it is part of), smoothstep "
+             "3t²-2t³, or sqrt √t")
       ->group(group);
   add_choice(command, "--conflict", options.conflict, conflicts(),
              "Which of several entries on a line of sight is kept")

@@ -49,8 +49,8 @@ struct SilhouetteCounts {
   std::size_t fused = 0;                   ///< of these, by rows
   std::size_t overlapping = 0;             ///< of these, where more than two levels were met
   std::size_t rays = 0, second_rays = 0;
-  std::size_t fallback = 0;  ///< receivers left to rays, see fallback_samples
-  std::size_t bytes = 0;     ///< of the band, its tree and all threads' lists at their longest
+  std::size_t fallback = 0;         ///< receivers left to rays, see fallback_samples
+  std::size_t bytes = 0;            ///< of the band, its tree and all threads' lists at their longest
   std::size_t hierarchy_bytes = 0;  ///< of the hierarchy over all edges of casters (scene_edges.h), made once
                                     ///< a RayScene and in no stage
 };
@@ -64,10 +64,10 @@ struct SilhouetteResult {
   SilhouetteCounts counts;
 };
 
-/// Cost: vertices (their box), plus the band, plus band edges near each tile, plus per receiver its part's list (blocks of eight edges
-/// where it is long and the surface is fine) and s log s for s segments across the disk. On all cores of
-/// `rays`; the result does not depend on their number. Requires a light of radius > 0 (UsageError). Throws
-/// Cancelled.
+/// Cost: vertices (their box), plus the band, plus band edges near each tile, plus per receiver its part's
+/// list (blocks of eight edges where it is long and the surface is fine) and s log s for s segments across
+/// the disk. On all cores of `rays`; the result does not depend on their number. Requires a light of radius >
+/// 0 (UsageError). Throws Cancelled.
 SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
                                        const SilhouetteOptions& options = {}, const Progress& progress = {});
 

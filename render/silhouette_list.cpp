@@ -257,7 +257,8 @@ void sift(const EdgeList& list, const Vec3& x, Sifted& out) {
   for (std::size_t first = 0; first < list.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, list.size() - first);
     sift_range(columns, first, static_cast<int>(count), receiver, jumps);
-    found += keep_some(list.places() + first, jumps, count, out.places.data() + found, out.jumps.data() + found);
+    found +=
+        keep_some(list.places() + first, jumps, count, out.places.data() + found, out.jumps.data() + found);
   }
   out.count = found;
 }

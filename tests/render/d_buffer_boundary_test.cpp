@@ -1,4 +1,5 @@
-// The boundary that the visibility shader follows from edge to edge: exact areas of plane casters, with no rays asked.
+// The boundary that the visibility shader follows from edge to edge: exact areas of plane casters, with no
+// rays asked.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -23,7 +24,8 @@ Polygon regular(const char* name, int corners, double radius) {
   for (int k = 0; k < corners; ++k) {
     const double angle = 2.0 * testing::kPi * k / corners;
     out.corners.push_back(radius * glm::dvec2(std::cos(angle), std::sin(angle)));
-    out.triangles.push_back({0, static_cast<std::uint32_t>(k + 1), static_cast<std::uint32_t>((k + 1) % corners + 1)});
+    out.triangles.push_back(
+        {0, static_cast<std::uint32_t>(k + 1), static_cast<std::uint32_t>((k + 1) % corners + 1)});
   }
   return out;
 }
@@ -47,7 +49,8 @@ SurfaceBuffer grid(double half) {
   std::vector<Vec3> points;
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x)
-      points.emplace_back(half * (2.0 * (x + 0.5) / kSide - 1.0), half * (2.0 * (y + 0.5) / kSide - 1.0), 8.0);
+      points.emplace_back(half * (2.0 * (x + 0.5) / kSide - 1.0), half * (2.0 * (y + 0.5) / kSide - 1.0),
+                          8.0);
   return testing::receivers(points, {0, 0, -1}, kSide);
 }
 
@@ -60,15 +63,14 @@ TEST(DBufferBoundary, IsExactFromEdgeToEdge) {
   const auto context = gl::make_context(gl::Backend::kOsMesa);
   for (const Case& c :
        {Case{regular("triangle", 3, 1.5), 1.0, 1e-4}, Case{regular("twelve edges", 12, 1.5), 1.0, 1e-4},
-                        Case{regular("forty edges", 40, 1.5), 0.5, 1e-4}, Case{corner_piece(), 0.5, 1e-4},
-                        Case{regular("small hexagon", 6, 0.2), 1.0, 1e-4}}) {
+        Case{regular("forty edges", 40, 1.5), 0.5, 1e-4}, Case{corner_piece(), 0.5, 1e-4},
+        Case{regular("small hexagon", 6, 0.2), 1.0, 1e-4}}) {
     const Scene scene = scene_of(c.polygon, c.radius);
     const RayScene rays(scene, 0);
     const SurfaceBuffer surface = grid(6.0);
     DBuffer buffer(*context, scene, rays);
     buffer.set_surface(surface);
-    const auto visibility =
-        buffer.render(scene.light, {.size = 1024, .check = EntryCheck::kNone}).visibility;
+    const auto visibility = buffer.render(scene.light, {.size = 1024, .check = EntryCheck::kNone}).visibility;
     const auto truth = silhouette_visibility(scene, rays, surface).visibility;
     double sum = 0.0, worst = 0.0;
     std::size_t count = 0;

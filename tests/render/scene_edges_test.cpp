@@ -137,7 +137,9 @@ TEST(SceneEdges, AreTheSameForAnyNumberOfThreads) {
     return out;
   };
   const std::vector<SceneEdge> one = found(1), two = found(2);
-  const auto same = [](const SceneEdge& a, const SceneEdge& b) { return a.object == b.object && a.id == b.id; };
+  const auto same = [](const SceneEdge& a, const SceneEdge& b) {
+    return a.object == b.object && a.id == b.id;
+  };
   EXPECT_TRUE(std::ranges::equal(one, two, same));
 }
 

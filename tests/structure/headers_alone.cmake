@@ -1,4 +1,4 @@
-# Every header compiles alone, twice over: one generated source a header. Building them is the test.
+# Every header compiles alone, twice over: one generated source a header. Building them is the test, `./run check`.
 set(modules mesh volumes)
 if(TARGET penumbra_checks)
   list(APPEND modules volumes/checks)
@@ -16,7 +16,7 @@ foreach(module IN LISTS modules)
     list(APPEND sources ${source})
   endforeach()
 endforeach()
-add_library(headers_alone OBJECT ${sources})
+add_library(headers_alone OBJECT EXCLUDE_FROM_ALL ${sources})
 target_compile_options(headers_alone PRIVATE -O0)
 target_link_libraries(headers_alone PRIVATE penumbra_flags)
 foreach(module mesh volumes checks render)
