@@ -27,8 +27,6 @@ using detail::ReceiverLanes;
 
 constexpr std::size_t kLanes = 16;
 constexpr int kBlock = 4;  // pixels a side that share a packet
-/// What a cut reads as that only the ray towards the light finds: the two directions round differently.
-constexpr float kAlmostThere = 1.0f - 0x1p-20f;
 
 struct LocalDisk {
   float x, y, z;     ///< center
@@ -98,10 +96,9 @@ float open_fraction(float delta) {
   return delta >= 1.0f ? 1.0f : delta > -1.0f ? static_cast<float>(half_plane_area(delta)) : 0.0f;
 }
 
-/// Sixteen rays, first from receivers to see whether anything is in the way, then back for what the light
-/// meets first.
+/// Sixteen rays from receivers.
 struct Packet {
-  alignas(64) RTCRayHit16 hits{};
+  alignas(64) RTCRay16 ray{};
   alignas(64) int wanted[kLanes];
   RTCIntersectContext context;
 
@@ -110,25 +107,16 @@ struct Packet {
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
 
-  /// Leaves in `wanted` the lanes that are cut, and where in the ray's tfar: 0 at the light, 1 at the
-  /// receiver.
-  void find_first_cuts(const ReceiverLanes& from, RTCScene casters) {
-    RTCRay16& ray = hits.ray;
+  /// Whether something lies on the way of lane k, after `trace`.
+  bool is_hidden(std::size_t k) const {
+    return wanted[k] && ray.tfar[k] < 0.0f;  // Embree sets it to -infinity at a hit
+  }
+  void trace(const ReceiverLanes& from, RTCScene casters) {
     for (std::size_t k = 0; k < kLanes; ++k) {
       ray.org_x[k] = from.x[k], ray.org_y[k] = from.y[k], ray.org_z[k] = from.z[k];
       ray.tnear[k] = 0.0f, ray.tfar[k] = 1.0f, ray.mask[k] = ~0u;
     }
     rtcOccluded16(wanted, casters, &context, &ray);
-    bool any = false;
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      wanted[k] = wanted[k] && ray.tfar[k] < 0.0f ? -1 : 0;  // Embree sets it to -infinity at a hit
-      any = any || wanted[k];
-      ray.org_x[k] += ray.dir_x[k], ray.org_y[k] += ray.dir_y[k], ray.org_z[k] += ray.dir_z[k];
-      ray.dir_x[k] = -ray.dir_x[k], ray.dir_y[k] = -ray.dir_y[k], ray.dir_z[k] = -ray.dir_z[k];
-      ray.tfar[k] = kAlmostThere;
-      hits.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
-    }
-    if (any) rtcIntersect16(wanted, casters, &context, &hits);
   }
 };
 
@@ -180,7 +168,7 @@ void CenterRays::above_horizon(const DiskLight& light, std::vector<float>& out) 
       [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 256), look); });
 }
 
-void CenterRays::first_cut(const DiskLight& light, std::vector<float>& out) const {
+void CenterRays::center_seen(const DiskLight& light, std::vector<float>& out) const {
   out.assign(pixels_, 1.0f);
   const LocalDisk disk = local_disk(light, rays_.frame());
   const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
@@ -188,11 +176,11 @@ void CenterRays::first_cut(const DiskLight& light, std::vector<float>& out) cons
     for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
       const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
       const ReceiverLanes from = lanes(first);
-      aim(from, disk, packet.hits.ray, packet.wanted);
+      aim(from, disk, packet.ray, packet.wanted);
       for (std::size_t k = count; k < kLanes; ++k) packet.wanted[k] = 0;
-      packet.find_first_cuts(from, rays_.impl().casters);
+      packet.trace(from, rays_.impl().casters);
       for (std::size_t k = 0; k < count; ++k)
-        if (packet.wanted[k]) out[pixel_[first + k]] = packet.hits.ray.tfar[k];
+        if (packet.is_hidden(k)) out[pixel_[first + k]] = 0.0f;
     }
   };
   rays_.impl().arena.execute(

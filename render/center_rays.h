@@ -1,9 +1,7 @@
-// Where the segment from the light's center to each receiver is cut first, by rays, and what a few more say
-// of a penumbra.
+// Whether each receiver sees the light's center, by rays, and what a few more say of a penumbra.
 //
-// In: surface points (once), a light. Out: a number a pixel, the 2004 paper's |cxo| over |cx|. The shadow's
-// whole topology hangs on whether there is such a cut (see d_buffer.h), and a ray decides it for the receiver
-// itself, where a shadow map decides it for a texel.
+// In: surface points (once), a light. Out: a number a pixel. The shadow's whole topology hangs on it (see
+// d_buffer.h), and a ray decides it for the receiver itself, where a shadow map decides it for a texel.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +21,11 @@ class CenterRays {
  public:
   /// Copies what it needs of `surface`; `rays` must outlive it.
   CenterRays(const SurfaceBuffer& surface, const RayScene& rays);
-  /// Into `out` one per pixel of the surface buffer: which part of the way from the disk's center to the
-  /// receiver lies before the first caster; 1 where none is met. Where the center is below the receiver's
-  /// horizon and part of the disk is above it, the way starts in the middle of that part's extent. Points
-  /// behind the light and such that see nothing of it count as open. Cost: one ray a pixel and another where
-  /// that is cut, on all cores.
-  void first_cut(const DiskLight& light, std::vector<float>& out) const;
+  /// Into `out` one per pixel of the surface buffer: 1 where nothing lies between it and the disk's center,
+  /// else 0. Where the center is below the receiver's horizon and part of the disk is above it, the middle of
+  /// that part's extent takes its place. Points behind the light and such that see nothing of it count as
+  /// open. Cost: one ray a pixel, on all cores.
+  void center_seen(const DiskLight& light, std::vector<float>& out) const;
   /// Visibility of each of the given pixels, all of which see a surface: the disk's fraction above the
   /// horizon, times the share that is seen of sixteen points of equal shares of the disk (of those above).
   /// Nine patterns of points alternate over three by three pixels (interleaved sampling, Keller and Heidrich

@@ -41,7 +41,7 @@ enum class CenterTest {
 };
 enum class EntryCheck {
   kRays,  ///< sixteen rays a pixel where neighbours on one surface contradict each other (a step of more than
-          ///< a tenth that no slope explains); they replace what entries say by more than a tenth otherwise.
+          ///< .07 that no slope explains); they replace what entries say by more than their noise otherwise.
           ///< Against leaks, penumbrae of edges that something else hides, and seams between a texel's
           ///< entries.
   kNone,

@@ -87,24 +87,24 @@ void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::
   surface_normal_ = upload(normals_);
   visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
-  first_cut_ = image_texture(gl_, GL_R32F, width_, height_);
+  center_seen_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
   lonely_ = lonely_pixels({width_, height_, positions_, normals_, {}});
-  cuts_.clear();
+  seen_.clear();
 }
 
 void DBufferShading::trace_center(const DiskLight& light) {
-  center_rays_->first_cut(light, cuts_);
+  center_rays_->center_seen(light, seen_);
   const auto upload = [&](const Object& texture, const std::vector<float>& texels) {
     gl_.BindTexture(GL_TEXTURE_2D, texture);
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RED, GL_FLOAT, texels.data());
   };
-  upload(*first_cut_, cuts_);
+  upload(*center_seen_, seen_);
   center_rays_->above_horizon(light, open_);
-  without_entries_.resize(cuts_.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cuts_.size(), 8192), [&](const auto& range) {
+  without_entries_.resize(seen_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen_.size(), 8192), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
-      without_entries_[i] = cuts_[i] < 1.0f ? 0.0f : open_[i];
+      without_entries_[i] = seen_[i] < 1.0f ? 0.0f : open_[i];
   });
   upload(*visibility_texture_, without_entries_);
 }
@@ -114,7 +114,7 @@ ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
 }
 
 ReceiverGrid DBufferShading::receiver_grid(const DBufferView& view, int size) const {
-  return {receivers(view), normals_, cuts_, view.targets[0], size, view.radius};
+  return {receivers(view), normals_, seen_, view.targets[0], size, view.radius};
 }
 
 DBufferShading::Programs& DBufferShading::programs(const DBufferView& view, const DBufferOptions& options) {
@@ -136,7 +136,7 @@ void DBufferShading::bind_textures(const Program& program, const DBufferLayers& 
   const Binding bindings[] = {
       {"surface_position", GL_TEXTURE_2D, *surface_position_},
       {"surface_normal", GL_TEXTURE_2D, *surface_normal_},
-      {"first_cut", GL_TEXTURE_2D, *first_cut_},
+      {"center_seen", GL_TEXTURE_2D, *center_seen_},
       {"occluder_face", kArray, layers.occluder.id.texture},
       {"occluder_depth", kArray, layers.occluder.depth.texture},
       {"last_depth", kArray, layers.last.texture},
@@ -199,7 +199,7 @@ void DBufferShading::upload_tiles(const std::vector<glm::vec2>& tiles) {
 
 void DBufferShading::test_center_by_depth(const Programs& programs, const DBufferView& view,
                                           const DBufferLayers& layers, GLuint records) {
-  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *first_cut_, 0);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *center_seen_, 0);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
   gl::require_complete_framebuffer(gl_, "testing the light's center");
   gl_.DepthFunc(GL_ALWAYS);

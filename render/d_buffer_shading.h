@@ -33,7 +33,7 @@ class DBufferShading {
   bool has_surface() const { return width_ > 0; }
   int automatic_size() const { return d_buffer_size_for(width_, height_); }
 
-  /// One ray a pixel to the light's center; `cuts` and the visibility where no entry applies come of it.
+  /// One ray a pixel to the light's center; `seen` and the visibility where no entry applies come of it.
   void trace_center(const DiskLight& light);
   /// Who will read the only target, after trace_center.
   ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
@@ -66,11 +66,11 @@ class DBufferShading {
   const gl::Functions& gl_;
   int width_ = 0, height_ = 0;
   std::size_t sampled_ = 0;
-  std::unique_ptr<gl::Object> surface_position_, surface_normal_, first_cut_, visibility_texture_,
+  std::unique_ptr<gl::Object> surface_position_, surface_normal_, center_seen_, visibility_texture_,
       mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
-  std::vector<float> cuts_, open_, without_entries_;
+  std::vector<float> seen_, open_, without_entries_;
   std::vector<std::uint32_t> lonely_;  ///< pixels, see lonely_pixels
   VisibilitySteps steps_;
   gl::Object tile_array_, tile_buffer_;

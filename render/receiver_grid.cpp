@@ -22,7 +22,7 @@ std::size_t place(SupportKind kind) {
 }  // namespace
 
 ReceiverGrid::ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals,
-                           std::span<const float> cuts, const Target& target, int size, double radius)
+                           std::span<const float> seen, const Target& target, int size, double radius)
     : reads_(image.positions.size()), low_(target.window[0], target.window[2]) {
   const glm::dvec2 extent = glm::dvec2(target.window[1], target.window[3]) - low_;
   cells_per_unit_ = static_cast<double>(kCells) / extent;
@@ -47,7 +47,7 @@ ReceiverGrid::ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec
       float& least = cells[place(kind)][y * kCells + x];
       least = std::min(least, value);
     };
-    if (cuts[i] < 1.0f) return put(SupportKind::kUmbra, weight);
+    if (seen[i] < 0.5f) return put(SupportKind::kUmbra, weight);
     if (glm::dot(image.axes * glm::vec3(normals[i]), p) < 0.0f) return put(SupportKind::kPenumbra, weight);
     // Below whose horizon the center lies: any penumbra entry, near or far, decides which kind it reads.
     put(SupportKind::kPenumbra, -kNobody);

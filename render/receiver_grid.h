@@ -52,9 +52,9 @@ class ReceiverGrid {
 
   /// Receivers everywhere, as far away as can be.
   ReceiverGrid() = default;
-  /// Those of an image in the only target of `size` texels a side around a disk of the given radius; `cuts`
-  /// as from CenterRays::first_cut, `normals` in the scene's frame. Cost O(pixels), on all cores.
-  ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals, std::span<const float> cuts,
+  /// Those of an image in the only target of `size` texels a side around a disk of the given radius; `seen`
+  /// as from CenterRays::center_seen, `normals` in the scene's frame. Cost O(pixels), on all cores.
+  ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals, std::span<const float> seen,
                const Target& target, int size, double radius);
 
   bool is_everywhere() const { return levels_.empty(); }

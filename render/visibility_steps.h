@@ -28,7 +28,7 @@ struct ImageSurface {
 using AskVisibility = std::function<std::vector<float>(std::span<const std::uint32_t>)>;
 
 /// More than this between neighbours is a step; less may be the slope of a narrow penumbra.
-inline constexpr float kVisibilityStep = 0.1f;
+inline constexpr float kVisibilityStep = 0.07f;
 
 /// Pixels that see a surface which at most one of their four neighbours sees too, ascending: leaves and
 /// needles, where wrong entries contradict nothing. Cost O(pixels), on all cores.

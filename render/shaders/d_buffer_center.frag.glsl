@@ -1,9 +1,9 @@
 #version 450 core
-// Where a receiver's line to the light's center is cut, by the depth of the first surface in its texel. With the center
-// below the horizon the texel says nothing.
+// Whether a receiver sees the light's center, by the depth of the first surface in its texel. With the center below the
+// horizon the texel says nothing.
 #include "d_buffer_lookup.glsl"
 
-layout(location = 0) out float free;
+layout(location = 0) out float seen;
 
 void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
@@ -11,5 +11,5 @@ void main() {
   uint face = texelFetch(occluder_face, t.at, 0).r;
   bool other = t.at.z >= 0 && dot(r.n, r.x) < 0.0 && face != kEmpty && face != r.face;
   float weight = weight_of(texelFetch(occluder_depth, t.at, 0).r, t);
-  free = other && is_above(weight, r, t) ? r.weight / weight : 1.0;
+  seen = other && is_above(weight, r, t) ? 0.0 : 1.0;
 }

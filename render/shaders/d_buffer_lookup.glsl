@@ -7,7 +7,7 @@ const float kOnPlane = 1e-5;   // heights above the receiver that float cannot t
 
 uniform sampler2D surface_position;   // scene frame; the fourth number is 1 + the face's number, 0: nothing seen
 uniform sampler2D surface_normal;     // world, unit, towards the viewer
-uniform sampler2D first_cut;          // which part of the way from the light's center to the receiver is free; 1: all
+uniform sampler2D center_seen;        // 1 where the receiver sees the light's center, else 0
 uniform usampler2DArray occluder_face;    // the first surface
 uniform sampler2DArray occluder_depth;
 uniform sampler2DArray last_depth;        // the last surface that faces the light's center
@@ -35,7 +35,7 @@ struct Receiver {
   vec3 n;        // normal towards the viewer
   uint face;     // 1 + number
   float weight;  // 1/z
-  float cut;     // which part of the way from the light's center is free; 1: the center is seen
+  bool hidden;   // it does not see the light's center
 };
 
 struct Texel {
@@ -81,9 +81,9 @@ ivec3 layer_of(int kind, Texel t) { return t.at + ivec3(0, 0, kind * target_coun
 
 // The light's center decides which boundaries matter: those of the penumbra where it is seen, else those of the umbra,
 // which begin anew behind every surface that faces it.
-int kind_of_entries(bool hidden, Receiver r, Texel t) {
+int kind_of_entries(Receiver r, Texel t) {
   bool any_penumbra = texelFetch(first_entry, layer_of(kPenumbra, t), 0).r != kEmpty;
-  if (!hidden && (any_penumbra || dot(r.n, r.x) < 0.0)) return kPenumbra;
+  if (!r.hidden && (any_penumbra || dot(r.n, r.x) < 0.0)) return kPenumbra;
   return is_above(weight_of(texelFetch(last_depth, t.at, 0).r, t), r, t) ? kBelow : kAbove;
 }
 
@@ -95,6 +95,6 @@ Receiver receiver_at(ivec2 pixel) {
   r.x = light_axes * p.xyz + light_offset;
   r.n = light_axes * texelFetch(surface_normal, pixel, 0).xyz;
   r.weight = 1.0 / r.x.z;
-  r.cut = texelFetch(first_cut, pixel, 0).r;
+  r.hidden = texelFetch(center_seen, pixel, 0).r < 0.5;
   return r;
 }

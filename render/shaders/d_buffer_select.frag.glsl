@@ -12,11 +12,11 @@ layout(location = 0) out float visibility;
 void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
   Texel t = texel_of(r.x);
-  bool hidden = r.cut < 1.0, sees_some = dot(r.n, r.x) < radius * length(r.n.xy);  // of the disk above the horizon
+  bool sees_some = dot(r.n, r.x) < radius * length(r.n.xy);  // of the disk above the horizon
   bool open_to_entries = r.face != 0u && r.x.z > 0.0 && sees_some && t.at.z >= 0;
-  bool applies = open_to_entries && texelFetch(first_entry, layer_of(kind_of_entries(hidden, r, t), t), 0).r != kEmpty;
+  bool applies = open_to_entries && texelFetch(first_entry, layer_of(kind_of_entries(r, t), t), 0).r != kEmpty;
 #if !KNOWN
-  visibility = r.face == 0u ? 1.0 : r.x.z <= 0.0 || (open_to_entries && hidden) 
+  visibility = r.face == 0u ? 1.0 : r.x.z <= 0.0 || (open_to_entries && r.hidden)
                    ? 0.0
                    : half_plane_area(chord_of_plane(r.n, r.x, radius).delta);
 #endif

@@ -50,7 +50,7 @@ const Share kNoShare = Share(-1.0, kWholeDisk, false);
 
 // Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what is
 // known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
-Share share_of_facet(uint facet, uint other, bool hidden, bool overlapped, Receiver r, Chord horizon) {
+Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
   int first = int(4u * facet);
   vec3 a = texelFetch(records, first + 1).xyz, b = texelFetch(records, first + 2).xyz;
   vec3 plane = edge_plane(r.x, a, b);
@@ -60,17 +60,11 @@ Share share_of_facet(uint facet, uint other, bool hidden, bool overlapped, Recei
   if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, false);
   if (horizon.delta >= 1.0) {
     Past past = past_boundary(facet, other, a, b, chord, r.x);
-    bool agrees = past.center != hidden && abs(past.area) < 2.0;  // and is a number
-    if (agrees) return Share(clamp(past.area, 0.0, hidden && overlapped ? 0.5 : 1.0), chord, past.met);
+    bool agrees = past.center != r.hidden && abs(past.area) < 2.0;  // and is a number
+    if (agrees) return Share(clamp(past.area, 0.0, 1.0), chord, past.met);
   }
-  chord.delta = agreeing(chord.delta, hidden);
+  chord.delta = agreeing(chord.delta, r.hidden);
   return Share(two_half_planes_area(chord, horizon), chord, false);
-}
-
-// Whether the surface that the light's center sees in this direction is not the last one before the receiver.
-bool is_overlapped(Receiver r, Texel t) {
-  float first = r.weight / r.cut, last = weight_of(texelFetch(last_depth, t.at, 0).r, t);
-  return first > 1.02 * last;
 }
 
 // The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the same
@@ -82,11 +76,11 @@ Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, false);
 }
 
-Share share_of(Entry e, uint other, bool hidden, Receiver r, Texel t, Chord horizon) {
+Share share_of(Entry e, uint other, Receiver r, Texel t, Chord horizon) {
   if (CONTENTS == kDistances) return share_of_distances(e, r, horizon);
   // What a texel's width is worth on a boundary's slope of 1/radius in (x/z, y/z).
   float slack = t.size * dot(t.direction, t.direction) / (t.direction.z * t.direction.z * radius);
-  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, other, hidden, is_overlapped(r, t), r, horizon) : kNoShare;
+  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, other, r, horizon) : kNoShare;
 }
 
 // Two penumbra entries are two occluders: hidden is what either hides. Two umbra entries are two sides of one occluder:
@@ -102,25 +96,24 @@ void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
   Chord horizon = chord_of_plane(r.n, r.x, radius);
   Texel t = texel_of(r.x);
-  bool hidden = r.cut < 1.0;
-  int kind = kind_of_entries(hidden, r, t);
+  int kind = kind_of_entries(r, t);
   bool umbra = kind != kPenumbra;
   Entry one = first_of(kind, t);
   Share second = kNoShare;
 #if ENTRIES > 1
   Entry two = second_of(kind, t);
-  Share first = share_of(one, two.content - 1u, hidden, r, t, horizon);
+  Share first = share_of(one, two.content - 1u, r, t, horizon);
   if (two.content != kEmpty && horizon.delta >= 1.0 && !first.has_other)
-    second = share_of(two, kNoEdge, hidden, r, t, horizon);
+    second = share_of(two, kNoEdge, r, t, horizon);
   if (first.visibility < 0.0) {
     first = second;
     second = kNoShare;
   }
 #else
-  Share first = share_of(one, kNoEdge, hidden, r, t, horizon);
+  Share first = share_of(one, kNoEdge, r, t, horizon);
 #endif
   if (first.visibility < 0.0) {
-    visibility = hidden ? 0.0 : half_plane_area(horizon.delta);
+    visibility = r.hidden ? 0.0 : half_plane_area(horizon.delta);
   } else {
     visibility = second.visibility < 0.0 ? first.visibility : union_of(first, second, umbra);
   }

@@ -14,7 +14,7 @@ using testing::View;
 
 struct Receivers {
   std::vector<glm::vec4> positions, normals;
-  std::vector<float> cuts;
+  std::vector<float> seen;
 };
 
 /// In the light's frame, some of them outside of the window, some turned away from the light's center.
@@ -25,7 +25,7 @@ Receivers random_receivers(Random& random, int count) {
     const glm::vec3 p(glm::dvec3(1.2 * z * random.point().x, 1.2 * z * random.point().y, z));
     out.positions.emplace_back(p, random.uniform(0, 1) < 0.9 ? 1.0f : 0.0f);
     out.normals.emplace_back(glm::vec3(random.direction()), 0.0f);
-    out.cuts.push_back(random.uniform(0, 1) < 0.5 ? 0.7f : 1.0f);
+    out.seen.push_back(random.uniform(0, 1) < 0.5 ? 0.0f : 1.0f);
   }
   return out;
 }
@@ -38,7 +38,7 @@ TEST(ReceiverGrid, IsNeverAboveAReceiverInTheBounds) {
     const detail::ImageReceivers image{static_cast<int>(r.positions.size()), 1, r.positions, glm::mat3(1.0f),
                                        glm::vec3(0.0f)};
     const double radius = random.spread(0.01, 1.0);
-    const detail::ReceiverGrid grid(image, r.normals, r.cuts, target, 512, radius);
+    const detail::ReceiverGrid grid(image, r.normals, r.seen, target, 512, radius);
     for (int query = 0; query < 50; ++query) {
       const glm::dvec2 corner(random.point()), size(random.spread(1e-3, 2.0), random.spread(1e-3, 2.0));
       const detail::UvBounds bounds{corner, corner + size};
@@ -50,7 +50,7 @@ TEST(ReceiverGrid, IsNeverAboveAReceiverInTheBounds) {
           const bool inside = glm::all(glm::greaterThanEqual(uv, bounds.low)) &&
                               glm::all(glm::lessThanEqual(uv, bounds.high)) &&
                               glm::all(glm::lessThan(glm::abs(uv), glm::dvec2(1.0)));
-          const bool hidden = r.cuts[i] < 1.0f;
+          const bool hidden = r.seen[i] < 0.5f;
           if (r.positions[i].w == 0.0f || !inside || hidden != (kind == SupportKind::kUmbra)) continue;
           EXPECT_LE(least, 1.0 / p.z) << "receiver " << i;
         }
@@ -62,9 +62,9 @@ TEST(ReceiverGrid, IsNeverAboveAReceiverInTheBounds) {
 TEST(ReceiverGrid, KnowsWhereNobodyIs) {
   const detail::Target target{glm::dmat3(1.0), {-1.0, 1.0, -1.0, 1.0}};
   const std::vector<glm::vec4> positions{{0.5f, 0.5f, 1.0f, 1.0f}}, normals{{0.0f, 0.0f, -1.0f, 0.0f}};
-  const std::vector<float> cuts{1.0f};
+  const std::vector<float> seen{1.0f};
   const detail::ImageReceivers image{1, 1, positions, glm::mat3(1.0f), glm::vec3(0.0f)};
-  const detail::ReceiverGrid grid(image, normals, cuts, target, 512, 0.1);
+  const detail::ReceiverGrid grid(image, normals, seen, target, 512, 0.1);
   const detail::UvBounds near{{0.45, 0.45}, {0.55, 0.55}}, far{{-0.9, -0.9}, {-0.5, -0.5}};
   EXPECT_LT(grid.least_weight(SupportKind::kPenumbra, near), 1.0);
   EXPECT_GT(grid.least_weight(SupportKind::kPenumbra, near), 0.8);
