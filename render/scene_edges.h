@@ -1,9 +1,10 @@
 // All edges of a scene's casters, and which of them may belong to a light's silhouette band.
 //
 // In: casters, once. Out: for any disk light, the edges of its band (volumes/silhouette.h) without a look at
-// every face. Edges lie along a Morton curve, eight a block; over the blocks stands a hierarchy of boxes and
-// of the planes of their faces (bounds_tree.h). Where all faces of a block look at the light, or all away
-// from it, none of its edges is in the band; and the share of those blocks grows with the mesh.
+// every face. Edges that lie close together are neighbours, eight a block (halved across the longest side,
+// over and over); over the blocks stands a hierarchy of boxes and of the planes of their faces
+// (bounds_tree.h). Where all faces of a block look at the light, or all away from it, none of its edges is in
+// the band; and the share of those blocks grows with the mesh.
 //
 // All is in float, in the frame of rays. Where that leaves a doubt an edge is kept: a few more than the band
 // has do no harm, since what an edge does to a receiver is decided for that receiver.
@@ -27,9 +28,10 @@ struct SceneEdge {
 
 class SceneEdges {
  public:
-  /// `to_frame` takes the scene into [-1, 1]. Cost O(E), most of it on all cores; 50 bytes an edge.
+  /// In the frame (p - origin) · scale, which takes all of the scene into [-1, 1]. Cost O(E log E), most of
+  /// it on all cores; some 50 bytes an edge.
   SceneEdges(const Scene& scene, const Vec3& origin, double scale);
-  /// Those of the light's band, in the order of the curve, but for objects whose flag in `idle` (one an
+  /// Those of the light's band, neighbours close together, but for objects whose flag in `idle` (one an
   /// object, or none) is set. Cost O(band + √E), on all cores.
   std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> idle) const;
   std::size_t size() const { return edges_.size(); }

@@ -3,7 +3,8 @@
 // In: scene. Out: the silhouette band (volumes/silhouette.h) of all casters, in a frame where the light is
 // the unit disk in z = 0 and shines towards +z. Whatever lies behind the light's plane does not cast, so
 // edges are cut there; where a face itself crosses that plane, the cut is one more edge with a face on one
-// side only. (Strictly classified faces need none: their plane, hence the cut, misses the disk.)
+// side only. (Strictly classified faces need none: their plane, hence the cut, misses the disk.) Which edges
+// those are comes from a hierarchy that serves every light (scene_edges.h).
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -35,7 +36,7 @@ class UnitLight {
 };
 
 struct Band {
-  LargeArray<BandEdge> edges;   ///< along a curve: neighbours lie close together
+  LargeArray<BandEdge> edges;   ///< neighbours lie close together; those of cut faces come last
   std::vector<Bounds> casters;  ///< box of each, in the light's frame
   double extent = 1.0;          ///< largest absolute coordinate in the scene, in light radii (at least 1)
   std::size_t faces = 0, mesh_edges = 0, cut_edges = 0;
