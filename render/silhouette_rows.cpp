@@ -7,12 +7,11 @@
 #include <limits>
 #include <span>
 
-#include "render/vector_clones.h"
+#include "render/real_lanes.h"
 
 namespace penumbra::detail {
 namespace {
 
-constexpr int kLanes = kRowLanes;
 constexpr int kFewKeys = 96;            // a row: what sorts them is written down
 constexpr double kLeastLength = 1e-10;  // an interval shorter than that is rounding, not a level
 constexpr double kNoLevel = 1e9;        // above all
@@ -26,10 +25,13 @@ double crossing_key(double x, int change) {
 /// A key right of every row's end, with change 0.
 const double kNoCrossing = crossing_key(4.0, 0);
 
-PENUMBRA_INLINE void order(Reals& before, Reals& after) {
-  const Reals p = before, q = after;
-  before = p < q ? p : q;
-  after = p < q ? q : p;
+/// Lanes of some keys, from lane `first` on, in order.
+template <int kLanes>
+PENUMBRA_INLINE void order(RowKeys& before, RowKeys& after, int first) {
+  using Lanes = RealLanes<kLanes>;
+  const typename Lanes::Reals p = Lanes::load(&before.x[first]), q = Lanes::load(&after.x[first]);
+  Lanes::store(p < q ? p : q, &before.x[first]);
+  Lanes::store(p < q ? q : p, &after.x[first]);
 }
 
 /// Calls visit(i, j) for the pairs of keys that are to be put in order, one after the other, to sort `count`
@@ -59,15 +61,24 @@ const Exchanges& exchanges_of(int count) {
   return all[count];
 }
 
-PENUMBRA_VECTOR_CLONES
-void sort_few(RowKeys* keys, const std::array<std::uint8_t, 2>* exchanges, std::size_t count) {
-  for (std::size_t e = 0; e < count; ++e) order(keys[exchanges[e][0]].x, keys[exchanges[e][1]].x);
+template <int kLanes>
+PENUMBRA_INLINE void order_all(RowKeys& before, RowKeys& after) {
+  for (int first = 0; first < kRowLanes; first += kLanes) order<kLanes>(before, after, first);
 }
 
-PENUMBRA_VECTOR_CLONES
-void sort_many(RowKeys* keys, int count) {
-  for_each_exchange(count, [keys](int i, int j) { order(keys[i].x, keys[j].x); });
+template <int kLanes>
+PENUMBRA_INLINE void exchange(RowKeys* keys, const std::array<std::uint8_t, 2>* pairs, std::size_t count) {
+  for (std::size_t e = 0; e < count; ++e) order_all<kLanes>(keys[pairs[e][0]], keys[pairs[e][1]]);
 }
+PENUMBRA_BY_LANES(void, sort_few,
+                  (RowKeys * keys, const std::array<std::uint8_t, 2>* pairs, std::size_t count),
+                  exchange<kLanes>(keys, pairs, count))
+
+template <int kLanes>
+PENUMBRA_INLINE void exchange_all(RowKeys* keys, int count) {
+  for_each_exchange(count, [keys](int i, int j) { order_all<kLanes>(keys[i], keys[j]); });
+}
+PENUMBRA_BY_LANES(void, sort_many, (RowKeys * keys, int count), exchange_all<kLanes>(keys, count))
 
 /// Sorts the first `count` keys of some rows.
 void sort_lanes(RowKeys* keys, int count) {
@@ -84,52 +95,105 @@ void sort_row(RowKeys* keys, int count, int lane) {
   for (std::size_t k = 0; k < row.size(); ++k) keys[k].x[lane] = row[k];
 }
 
-/// The intervals that end at the next keys of some rows.
-PENUMBRA_INLINE void sweep_step(const Reals& key, RowLanes& r) {
-  const Reals zero{}, none = zero + kNoLevel;
-  const Reals right_of_left = key > r.left ? key : r.left;
-  const Reals x = right_of_left < r.right ? right_of_left : r.right;
-  const Reals ahead = x - r.from, length = ahead > kLeastLength ? ahead : zero;
-  r.length += length;
-  r.first += r.level * length;
-  r.second += r.level * r.level * length;
+/// Some rows on their way from left to right.
+template <int kLanes>
+struct Sweep {
+  using Lanes = RealLanes<kLanes>;
+  using Reals = typename Lanes::Reals;
+  using Integers = typename Lanes::Integers;
 
-  const Reals met = length > 0.0 ? r.level : none;
-  const Reals sum = met < r.lowest ? zero : r.lowest_length, best = met < r.lowest ? zero : r.best;
-  r.lowest = met < r.lowest ? met : r.lowest;
-  const Reals at_lowest = met == r.lowest ? length : zero;
-  r.lowest_length = sum + at_lowest;
-  r.middle = at_lowest > best ? 0.5 * (r.from + x) : r.middle;
-  r.best = at_lowest > best ? at_lowest : best;
-  const Integers one = Integers{} + 1, bit = one << (__builtin_bit_cast(Integers, r.level + kMagic) & 63);
-  r.seen |= length > 0.0 ? bit : Integers{};
+  Reals left, right;
+  Reals from, level;  // where the interval at hand begins, and its L
+  Reals length{}, first{}, second{}, lowest{}, lowest_length{}, best{}, middle{};  // as in RowResults
+  Integers seen{};
 
-  r.from = x > r.from ? x : r.from;
-  const Integers code = (__builtin_bit_cast(Integers, key) & 7) | std::bit_cast<std::int64_t>(0x1p52);
-  r.level += __builtin_bit_cast(Reals, code) - (0x1p52 + 4.0);
-}
-
-/// Puts kNoCrossing behind the ends of some rows, up to one behind the longest; returns how long that is.
-/// `ends`: where each row's next key would be, in numbers, row `lane` beginning at `begin` + lane.
-PENUMBRA_VECTOR_CLONES
-int fill_up(const std::size_t* ends, std::size_t begin, RowKeys* keys) {
-  Integers counts;
-  std::int64_t shortest = std::numeric_limits<std::int64_t>::max(), longest = 0;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const auto count = static_cast<std::int64_t>((ends[lane] - begin) / kLanes);
-    counts[lane] = count;
-    shortest = std::min(shortest, count), longest = std::max(longest, count);
+  PENUMBRA_INLINE Sweep(const RowStarts& rows, int lane)
+      : left(Lanes::load(rows.left + lane)),
+        right(Lanes::load(rows.right + lane)),
+        from(left),
+        level(Lanes::load(rows.level + lane)) {
+    lowest += kNoLevel;
   }
-  const Reals none = Reals{} + kNoCrossing;
-  for (std::int64_t k = shortest; k <= longest; ++k) keys[k].x = k < counts ? keys[k].x : none;
-  return static_cast<int>(longest);
-}
 
-PENUMBRA_VECTOR_CLONES
-void sweep_lanes(const RowKeys* keys, int count, RowLanes& rows) {
-  RowLanes r = rows;
-  for (int k = 0; k < count; ++k) sweep_step(keys[k].x, r);
-  rows = r;
+  /// The intervals that end at the next keys.
+  PENUMBRA_INLINE void step(const Reals& key) {
+    const Reals zero{}, none = zero + kNoLevel;
+    const Reals right_of_left = key > left ? key : left;
+    const Reals x = right_of_left < right ? right_of_left : right;
+    const Reals ahead = x - from, long_enough = ahead > kLeastLength ? ahead : zero;
+    length += long_enough;
+    first += level * long_enough;
+    second += level * level * long_enough;
+
+    const Reals met = long_enough > 0.0 ? level : none;
+    const Reals sum = met < lowest ? zero : lowest_length, longest = met < lowest ? zero : best;
+    lowest = met < lowest ? met : lowest;
+    const Reals at_lowest = met == lowest ? long_enough : zero;
+    lowest_length = sum + at_lowest;
+    middle = at_lowest > longest ? 0.5 * (from + x) : middle;
+    best = at_lowest > longest ? at_lowest : longest;
+    const Integers one = Integers{} + 1, bit = one << (__builtin_bit_cast(Integers, level + kMagic) & 63);
+    seen |= long_enough > 0.0 ? bit : Integers{};
+
+    from = x > from ? x : from;
+    const Integers code = (__builtin_bit_cast(Integers, key) & 7) | std::bit_cast<std::int64_t>(0x1p52);
+    level += __builtin_bit_cast(Reals, code) - (0x1p52 + 4.0);
+  }
+
+  PENUMBRA_INLINE void store(RowResults& out, int lane) const {
+    Lanes::store(length, &out.length[lane]);
+    Lanes::store(first, &out.first[lane]);
+    Lanes::store(second, &out.second[lane]);
+    Lanes::store(lowest, &out.lowest[lane]);
+    Lanes::store(lowest_length, &out.lowest_length[lane]);
+    Lanes::store(best, &out.best[lane]);
+    Lanes::store(middle, &out.middle[lane]);
+    Lanes::store(seen, &out.seen[lane]);
+  }
+};
+
+template <int kLanes>
+PENUMBRA_INLINE void sweep_by(const RowKeys* keys, int count, const RowStarts& rows, RowResults& out) {
+  for (int lane = 0; lane < kRowLanes; lane += kLanes) {
+    Sweep<kLanes> sweep(rows, lane);
+    for (int k = 0; k < count; ++k) sweep.step(RealLanes<kLanes>::load(&keys[k].x[lane]));
+    sweep.store(out, lane);
+  }
+}
+PENUMBRA_BY_LANES(void, sweep_lanes, (const RowKeys* keys, int count, const RowStarts& rows, RowResults& out),
+                  sweep_by<kLanes>(keys, count, rows, out))
+
+/// Where each of some rows ends, in keys.
+struct RowEnds {
+  alignas(kRowLanes * sizeof(std::int64_t)) std::array<std::int64_t, kRowLanes> count;
+  std::int64_t shortest, longest;
+};
+
+/// Puts kNoCrossing behind the ends of some rows, up to one behind the longest.
+template <int kLanes>
+PENUMBRA_INLINE void fill_up_by(const RowEnds& ends, RowKeys* keys) {
+  using Lanes = RealLanes<kLanes>;
+  const typename Lanes::Reals none = typename Lanes::Reals{} + kNoCrossing;
+  for (int lane = 0; lane < kRowLanes; lane += kLanes) {
+    typename Lanes::Integers count;
+    std::memcpy(&count, &ends.count[lane], sizeof(count));
+    for (std::int64_t k = ends.shortest; k <= ends.longest; ++k) {
+      double* const at = &keys[k].x[lane];
+      Lanes::store(k < count ? Lanes::load(at) : none, at);
+    }
+  }
+}
+PENUMBRA_BY_LANES(void, fill_up, (const RowEnds& ends, RowKeys* keys), fill_up_by<kLanes>(ends, keys))
+
+/// `ends`: where each row's next key would be, in numbers, row `lane` beginning at `begin` + lane.
+RowEnds row_ends(const std::size_t* ends, std::size_t begin) {
+  RowEnds out{{}, std::numeric_limits<std::int64_t>::max(), 0};
+  for (int lane = 0; lane < kRowLanes; ++lane) {
+    const auto count = static_cast<std::int64_t>((ends[lane] - begin) / kRowLanes);
+    out.count[lane] = count;
+    out.shortest = std::min(out.shortest, count), out.longest = std::max(out.longest, count);
+  }
+  return out;
 }
 
 }  // namespace
@@ -144,14 +208,18 @@ void Rows::place_rows(const DiskPart& part, int rows) {
   if (whole_disk_ && !part.is_cut() && rows == rows_) return;
   rows_ = rows;
   whole_disk_ = !part.is_cut();
-  stride_ = static_cast<std::size_t>((rows + kLanes - 1) / kLanes * kLanes);
+  stride_ = static_cast<std::size_t>((rows + kRowLanes - 1) / kRowLanes * kRowLanes);
   bottom_ = part.bottom();
   spacing_ = (part.top() - bottom_) / rows;
   per_spacing_ = 1.0 / spacing_;
-  ends_.assign(stride_, {0.0, 0.0});
+  left_.assign(stride_, 0.0);
+  right_.assign(stride_, 0.0);
   heights_.resize(stride_);
   for (std::size_t i = 0; i < stride_; ++i) heights_[i] = bottom_ + (static_cast<double>(i) + 0.5) * spacing_;
-  for (int i = 0; i < rows; ++i) ends_[i] = part.span(heights_[i], DiskPart::half_width(heights_[i]));
+  for (int i = 0; i < rows; ++i) {
+    const auto [left, right] = part.span(heights_[i], DiskPart::half_width(heights_[i]));
+    left_[i] = left, right_[i] = std::max(left, right);
+  }
 }
 
 /// Segments that cross a row: at height y those with low < y ≤ high.
@@ -171,9 +239,9 @@ void Rows::find_crossing(const Cut& cut) {
 void Rows::cross(const Cut& cut) {
   find_crossing(cut);
   most_ = crossing_count_ + 1;
-  keys_.resize(std::max(keys_.size(), most_ * stride_ / kLanes));
+  keys_.resize(std::max(keys_.size(), most_ * stride_ / kRowLanes));
   next_.resize(stride_);
-  for (std::size_t i = 0; i < stride_; ++i) next_[i] = i / kLanes * most_ * kLanes + i % kLanes;
+  for (std::size_t i = 0; i < stride_; ++i) next_[i] = i / kRowLanes * most_ * kRowLanes + i % kRowLanes;
   auto* const keys = reinterpret_cast<double*>(keys_.data());  // vectors may be accessed as their numbers
   for (const CrossingSegment& c : std::span(crossing_).first(crossing_count_)) {
     const Segment& s = *c.segment;
@@ -183,12 +251,15 @@ void Rows::cross(const Cut& cut) {
     const int change = up ? -s.jump : s.jump;
     for (int i = std::min(c.from, c.to); i < std::max(c.from, c.to); ++i) {
       keys[next_[i]] = crossing_key(low.x + slope * (heights_[i] - low.y), change);
-      next_[i] += kLanes;
+      next_[i] += kRowLanes;
     }
   }
-  longest_.resize(stride_ / kLanes);
-  for (std::size_t block = 0; block < longest_.size(); ++block)
-    longest_[block] = fill_up(&next_[block * kLanes], block * most_ * kLanes, &keys_[block * most_]);
+  longest_.resize(stride_ / kRowLanes);
+  for (std::size_t block = 0; block < longest_.size(); ++block) {
+    const RowEnds ends = row_ends(&next_[block * kRowLanes], block * most_ * kRowLanes);
+    fill_up(ends, &keys_[block * most_]);
+    longest_[block] = static_cast<int>(ends.longest);
+  }
 }
 
 /// Events on the left side of D change the levels at the left ends of all rows above.
@@ -199,31 +270,23 @@ void Rows::start_levels(const Cut& cut, const DiskPart& part) {
   for (int i = 1; i < rows_; ++i) levels_[i] += levels_[i - 1];
 }
 
-/// Rows before their first crossing.
-void Rows::start(int first, RowLanes& lanes) const {
-  lanes = RowLanes{};
-  lanes.lowest += kNoLevel;
-  for (int l = 0; l < kLanes; ++l) {
-    const auto [left, right] = ends_[first + l];
-    lanes.left[l] = lanes.from[l] = left;
-    lanes.right[l] = std::max(left, right);
-    lanes.level[l] = levels_[first + l];
-  }
+RowStarts Rows::starts(int first) const {
+  return {&left_[first], &right_[first], &levels_[first]};
 }
 
-void Rows::add(const RowLanes& lanes, int first, Sums& sums) const {
+void Rows::add(const RowResults& rows, int first, Sums& sums) const {
   RowSums& out = sums.sums;
-  for (int l = 0; l < std::min(kLanes, rows_ - first); ++l) {
-    out.length += lanes.length[l];
-    out.first += lanes.first[l];
-    out.second += lanes.second[l];
-    sums.seen |= static_cast<std::uint64_t>(lanes.seen[l]);
-    if (lanes.lowest[l] > out.lowest || lanes.lowest[l] == kNoLevel) continue;
-    if (lanes.lowest[l] < out.lowest) out.lowest = lanes.lowest[l], out.lowest_length = 0.0, sums.best = {};
-    out.lowest_length += lanes.lowest_length[l];
-    if (lanes.best[l] <= sums.best[l % 2]) continue;
-    sums.best[l % 2] = lanes.best[l];
-    out.aims[l % 2] = {lanes.middle[l], heights_[first + l]};
+  for (int l = 0; l < std::min(kRowLanes, rows_ - first); ++l) {
+    out.length += rows.length[l];
+    out.first += rows.first[l];
+    out.second += rows.second[l];
+    sums.seen |= static_cast<std::uint64_t>(rows.seen[l]);
+    if (rows.lowest[l] > out.lowest || rows.lowest[l] == kNoLevel) continue;
+    if (rows.lowest[l] < out.lowest) out.lowest = rows.lowest[l], out.lowest_length = 0.0, sums.best = {};
+    out.lowest_length += rows.lowest_length[l];
+    if (rows.best[l] <= sums.best[l % 2]) continue;
+    sums.best[l % 2] = rows.best[l];
+    out.aims[l % 2] = {rows.middle[l], heights_[first + l]};
   }
 }
 
@@ -234,11 +297,10 @@ RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, const S
   start_levels(cut, part);
   Sums sums;
   sums.sums.lowest = kNoLevel;
-  for (int first = 0; first < static_cast<int>(stride_); first += kLanes) {
-    RowLanes lanes;
-    start(first, lanes);
-    sweep_from(first, lanes);
-    add(lanes, first, sums);
+  for (int first = 0; first < static_cast<int>(stride_); first += kRowLanes) {
+    RowResults results;
+    sweep_from(first, results);
+    add(results, first, sums);
   }
   RowSums& out = sums.sums;
   out.levels = std::popcount(sums.seen);
@@ -248,20 +310,20 @@ RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, const S
 }
 
 RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows) {
-  return sweep_with(cut, part, rows, [&](int first, RowLanes& lanes) {
-    const int count = longest_[first / kLanes];
-    RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kLanes) * most_;
+  return sweep_with(cut, part, rows, [&](int first, RowResults& out) {
+    const int count = longest_[first / kRowLanes];
+    RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kRowLanes) * most_;
     sort_lanes(keys, count);
-    sweep_lanes(keys, count + 1, lanes);  // the last key of all ends the last interval
+    sweep_lanes(keys, count + 1, starts(first), out);  // the last key of all ends the last interval
   });
 }
 
 RowSums Rows::sweep_singly(const Cut& cut, const DiskPart& part, int rows) {
-  return sweep_with(cut, part, rows, [&](int first, RowLanes& lanes) {
-    RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kLanes) * most_;
-    const int count = longest_[first / kLanes];
-    for (int l = 0; l < kLanes; ++l) sort_row(keys, count, l);  // keys of no crossing stay last
-    for (int k = 0; k <= count; ++k) sweep_step(keys[k].x, lanes);
+  return sweep_with(cut, part, rows, [&](int first, RowResults& out) {
+    RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kRowLanes) * most_;
+    const int count = longest_[first / kRowLanes];
+    for (int l = 0; l < kRowLanes; ++l) sort_row(keys, count, l);  // keys of no crossing stay last
+    sweep_by<2>(keys, count + 1, starts(first), out);
   });
 }
 

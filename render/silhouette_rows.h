@@ -2,13 +2,13 @@
 //
 // In: segments inside D, at which the number L of hiding faces changes. Out: how long each row lies at L, as
 // far as fusing asks (silhouette_fuse.h): the lowest level and its length, and the moments of L. Rows are
-// lanes: their crossings are sorted and swept many rows at a time, without branches. A crossing is one
+// lanes: their crossings are sorted and swept many rows at a time, without branches, as many as the processor
+// has lanes (real_lanes.h). A crossing is one
 // number, its x with the change of L in the last three bits of the mantissa, so that sorting moves both.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "render/silhouette_integrate.h"
@@ -24,24 +24,26 @@ struct RowSums {
       aims;  ///< middles of long intervals at the lowest level, in rows of either parity
 };
 
-/// Numbers that are added, compared and chosen eight at a time (an extension of GCC and clang).
+/// Rows that lie next to each other in memory and are swept together.
 inline constexpr int kRowLanes = 8;
-using Reals = double __attribute__((vector_size(kRowLanes * sizeof(double))));
-using Integers = std::int64_t __attribute__((vector_size(kRowLanes * sizeof(std::int64_t))));
 
-/// One crossing of each of some neighbouring rows. (A class, so that vectors of it are aligned.)
+/// One crossing of each of some neighbouring rows.
 struct alignas(kRowLanes * sizeof(double)) RowKeys {
-  Reals x;
+  std::array<double, kRowLanes> x;
 };
 
-/// Some neighbouring rows on their way from left to right.
-struct alignas(kRowLanes * sizeof(double)) RowLanes {
-  Reals left, right;            ///< ends
-  Reals from, level;            ///< where the interval at hand begins, and its L
-  Reals length, first, second;  ///< as in RowSums, so far
-  Reals lowest, lowest_length;
-  Reals best, middle;  ///< of the longest interval at the lowest level
-  Integers seen;       ///< bit L mod 64 for each level met
+/// Some neighbouring rows before their first crossing.
+struct RowStarts {
+  const double *left, *right;  ///< ends
+  const double* level;         ///< L at the left ends
+};
+
+/// The same rows behind their last one.
+struct alignas(kRowLanes * sizeof(double)) RowResults {
+  using Numbers = std::array<double, kRowLanes>;
+  Numbers length, first, second, lowest, lowest_length;  ///< as in RowSums
+  Numbers best, middle;                                  ///< of the longest interval at the lowest level
+  std::array<std::int64_t, kRowLanes> seen;              ///< bit L mod 64 for each level met
 };
 
 /// For one receiver after the other, with memory kept between them.
@@ -69,8 +71,8 @@ class Rows {
   void find_crossing(const Cut& cut);
   void cross(const Cut& cut);
   void start_levels(const Cut& cut, const DiskPart& part);
-  void start(int first, RowLanes& lanes) const;
-  void add(const RowLanes& lanes, int first, Sums& sums) const;
+  RowStarts starts(int first) const;
+  void add(const RowResults& rows, int first, Sums& sums) const;
   template <class Sweep>
   RowSums sweep_with(const Cut& cut, const DiskPart& part, int rows, const Sweep& sweep_from);
 
@@ -78,9 +80,8 @@ class Rows {
   std::size_t stride_ = 0;  ///< rows, rounded up
   double bottom_ = 0.0, spacing_ = 0.0, per_spacing_ = 0.0;
   bool whole_disk_ = false;  ///< the ends of rows are those of the whole disk
-  std::vector<double> heights_;
-  std::vector<std::pair<double, double>> ends_;
-  std::vector<int> levels_;                ///< at left ends
+  std::vector<double> heights_, left_, right_;
+  std::vector<double> levels_;             ///< at left ends
   std::vector<CrossingSegment> crossing_;  ///< the first crossing_count_
   std::size_t crossing_count_ = 0;
   std::vector<std::size_t> next_;  ///< where each row's next key belongs, in numbers
