@@ -54,6 +54,10 @@ struct Truth {
 /// grows.
 void bench_d_buffer(const std::vector<std::string>& scenes);
 
+/// accuracy_bench.cpp: each method's frame and its error against the accurate rung, floor pixels and casters'
+/// apart, for one scene of data/scenes.
+void measure_accuracy(const std::string& name);
+
 /// silhouette_bench.cpp: the accurate rung against rays, for one scene of data/scenes.
 void time_silhouettes(const std::string& name);
 /// The same file: 1,000 times the faces, and lights of 16 times the radius.

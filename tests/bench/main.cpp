@@ -20,6 +20,14 @@ int run(const std::string& part, const std::vector<std::string>& named) {
   if (wanted("price")) compare_prices_of_classification(), known = true;
   if (wanted("dbuffer"))
     bench_d_buffer(scenes({"cube-medium", "bunny-medium", "knot1-medium", "armadillo-medium"})), known = true;
+  if (wanted("accuracy")) {
+    for (const std::string& name :
+         scenes({"cube-small", "cube-medium", "cube-large", "sphere-medium", "torus-medium", "torus-large",
+                 "boxes-medium", "boxes-large", "bunny-medium", "knot1-medium", "armadillo-medium",
+                 "refined_elephant-medium", "foliage-medium", "decorativePlant-medium", "figure7"}))
+      measure_accuracy(name);
+    known = true;
+  }
   if (wanted("silhouette")) {
     for (const std::string& name :
          scenes({"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium",
@@ -33,7 +41,8 @@ int run(const std::string& part, const std::vector<std::string>& named) {
   if (known) return 0;
   std::fprintf(
       stderr,
-      "penumbra_bench: no part \"%s\"; there are price, dbuffer, silhouette, growth, occlusion and all\n",
+      "penumbra_bench: no part \"%s\"; there are price, accuracy, dbuffer, silhouette, growth, occlusion and "
+      "all\n",
       part.c_str());
   return 2;
 }
@@ -44,8 +53,8 @@ int main(int argc, char** argv) {
   const std::string part = argc > 1 ? argv[1] : "all";
   if (part == "--help" || part == "-h") {
     std::puts(
-        "penumbra_bench [PART [SCENE...]]: price, dbuffer, silhouette, growth, occlusion or all; scenes of "
-        "data/scenes");
+        "penumbra_bench [PART [SCENE...]]: price, accuracy, dbuffer, silhouette, growth, occlusion or all; "
+        "scenes of data/scenes");
     return 0;
   }
   try {
