@@ -237,7 +237,8 @@ std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
     }
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;  // they graze casters: a tenth faster than coherent
+    context.flags =
+        RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;  // they graze casters: a tenth faster than coherent
     rtcOccluded16(above, rays_.impl().casters, &context, &ray);
     int asked = 0, seen = 0;
     for (std::size_t k = 0; k < kLanes; ++k) asked += above[k] != 0, seen += above[k] && ray.tfar[k] >= 0.0f;
