@@ -171,6 +171,8 @@ void look(const Band& band, const Sifted& sifted, const Vec3& x, const Chord& ho
   constexpr std::int32_t kStride = sizeof(BandEdge) / sizeof(double);
   out.clear();
   if (sifted.count == 0) return;
+  for (std::size_t i = 0; i < sifted.count; ++i)
+    __builtin_prefetch(&band.edges[static_cast<std::size_t>(sifted.places[i])]);
   see_sifted(
       sifted, &band.edges[0].a.x, kStride,
       [&](std::int32_t place) -> const BandEdge& { return band.edges[static_cast<std::size_t>(place)]; }, x,
