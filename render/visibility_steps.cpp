@@ -14,10 +14,10 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr float kTurned = 0.9f;        // cosine between normals of what still counts as one surface
-constexpr float kFlat = 0.998f;        // the same for answers that are put together
-constexpr float kApart = 0.5f;         // height above the neighbour's plane over the distance
-constexpr float kAnswerNoise = 0.08f;  // twice what one answer errs by, as root mean square
+constexpr float kTurned = 0.9f;  // cosine between normals of what still counts as one surface
+constexpr float kFlat = 0.998f;  // the same for answers that are put together
+constexpr float kApart = 0.5f;   // height above the neighbour's plane over the distance
+constexpr float kDoubt = 1.8f;   // so many times the answers' noise is no longer explained by it
 constexpr float kBend = 0.3f;  // between answers on either side of a pixel, or at it, that no noise explains
 
 /// Without a branch in the loop, so that it vectorises.
@@ -46,6 +46,13 @@ bool is_one_surface(const ImageSurface& image, std::uint32_t i, std::uint32_t j,
 }
 
 constexpr float kNone = -1.0f;  // no answer
+
+/// What the mean of some answers errs by, as root mean square where one edge crosses the disk. That of all
+/// nine errs by less than independent answers would, since their patterns complement each other
+/// (CenterRays::sampled_visibility).
+float noise_of_mean(int answers) {
+  return answers == 9 ? 0.007f : 0.037f / std::sqrt(static_cast<float>(answers));
+}
 
 /// Of what is above the horizon; a sliver of the disk counts as seen.
 float share_of(float open, float visibility) {
@@ -158,8 +165,7 @@ VisibilitySteps::Mean VisibilitySteps::mean_answer(std::uint32_t i) const {
 }
 
 float VisibilitySteps::difference(std::uint32_t i, const Mean& mean) const {
-  return std::abs(mean.visibility - visibility_[i]) * std::sqrt(static_cast<float>(mean.answers)) /
-         kAnswerNoise;
+  return std::abs(mean.visibility - visibility_[i]) / (kDoubt * noise_of_mean(mean.answers));
 }
 
 void VisibilitySteps::settle() {
