@@ -168,7 +168,7 @@ void DBuffer::Impl::find_idle(const DiskLight& light) {
 double DBuffer::Impl::far_weight(const detail::LightSpace& space) const {
   double farthest = 0.0;
   for (const SceneObject& object : scene.objects) {
-    const Bounds b = bounds_of(object.mesh.positions());
+    const Bounds& b = object.mesh.bounds();
     if (b.empty()) continue;
     for (int corner = 0; corner < 8; ++corner)
       farthest =
