@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "volumes/detail/vectors.h"
+
 namespace penumbra::detail {
 namespace {
 
@@ -15,7 +17,7 @@ constexpr double kOnPlane = 1e-9;  // what rounding leaves between a face and it
 
 /// In front of the plane at least this far is every point of the disk.
 double nearest_of_disk(const DiskLight& light, const Vec3& normal, double center_in_front) {
-  const double along = glm::dot(normal, glm::normalize(light.normal));
+  const double along = glm::dot(normal, unit(light.normal));
   return center_in_front - light.radius * std::sqrt(std::max(0.0, 1.0 - along * along));
 }
 

@@ -26,6 +26,15 @@ RayFrame ray_frame(const Scene& scene);
 /// and moves contact shadows by a hundred-thousandth of the scene.
 inline constexpr double kRayOffset = 1e-5;
 
+/// What lies nearer to the light's plane than this (local units) hides nothing: whether a sheet in that plane
+/// is in front of it is left to rounding. Rays end there, and edges are cut there.
+inline constexpr double kLightOffset = 2e-6;
+/// Where on its way to the light a ray ends that begins at this height in front of the light's plane (local
+/// units).
+inline float ray_end(float height) {
+  return height > static_cast<float>(kLightOffset) ? 1.0f - static_cast<float>(kLightOffset) / height : 0.0f;
+}
+
 class RayScene {
  public:
   RayScene(const Scene& scene, int threads);

@@ -34,11 +34,12 @@ struct StratumTable {
 struct LocalLight {
   glm::vec3 center, u, v;  ///< u and v are half axes of the disk or the rectangle
   bool disk;
+  glm::vec3 normal;
 };
 
 LocalLight local_light(const AreaLight& light, const RayFrame& frame) {
   return {glm::vec3(frame.to_local(light.center)), glm::vec3(light.axes.u * (light.half.x * frame.scale)),
-          glm::vec3(light.axes.v * (light.half.y * frame.scale)), light.disk};
+          glm::vec3(light.axes.v * (light.half.y * frame.scale)), light.disk, glm::vec3(light.axes.w)};
 }
 
 struct Receiver {
@@ -135,6 +136,7 @@ Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight&
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const float end = ray_end(glm::dot(x.origin - light.center, light.normal));
   for (int first = 0; first < table.strata.count(); first += kLanes) {
     aim_at_samples(x, light, table, key, first, aim);
     const int count = std::min(kLanes, table.strata.count() - first);
@@ -145,7 +147,7 @@ Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight&
       packet.dir_x[k] = aim.x[k];
       packet.dir_y[k] = aim.y[k];
       packet.dir_z[k] = aim.z[k];
-      packet.tfar[k] = 1.0f;
+      packet.tfar[k] = end;
     }
     if (lanes == 0) continue;
     counts.rays += static_cast<std::size_t>(lanes);
@@ -226,7 +228,7 @@ ReferenceResult trace_reference(const Scene& scene, const RayScene& rays, const 
 ReferenceResult trace_hard(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
                            std::span<const std::uint32_t> pixels) {
   const auto start = std::chrono::steady_clock::now();
-  const glm::vec3 center(rays.frame().to_local(scene.light.center));
+  const glm::vec3 center(rays.frame().to_local(scene.light.center)), normal(light_frame(scene.light).w);
   ReferenceResult out;
   out.visibility.assign(pixels.size(), 1.0f);
   std::atomic<std::size_t> traced{0};
@@ -242,7 +244,7 @@ ReferenceResult trace_hard(const Scene& scene, const RayScene& rays, const Surfa
     RTCRay ray{};
     ray.org_x = x.origin.x, ray.org_y = x.origin.y, ray.org_z = x.origin.z;
     ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
-    ray.tfar = 1.0f;
+    ray.tfar = ray_end(-glm::dot(d, normal));
     ray.mask = ~0u;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

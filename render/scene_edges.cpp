@@ -131,7 +131,7 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
 }
 
 std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<const char> idle) const {
-  const Vec3 center = (light.center - origin_) * scale_, normal = glm::normalize(light.normal);
+  const Vec3 center = (light.center - origin_) * scale_, normal = unit(light.normal);
   const double radius = light.radius * scale_;
   // The light may lie farther out than it did when the frame was made.
   const double extent = std::max(1.0, largest_component(center) + radius);

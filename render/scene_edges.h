@@ -35,6 +35,7 @@ class SceneEdges {
   /// object, or none) is set. Cost O(band + √E), on all cores.
   std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> idle) const;
   std::size_t size() const { return edges_.size(); }
+  double scale() const { return scale_; }
   std::size_t bytes() const;
 
  private:

@@ -27,10 +27,12 @@ using namespace detail;
 
 constexpr double kPi = std::numbers::pi;
 
-constexpr std::size_t kShortList = 24;     // edges; shorter lists are not narrowed
-constexpr std::size_t kFewReceivers = 16;  // a quarter of a tile: narrowing for fewer costs what it saves
-constexpr std::size_t kManyBlocks = 64;    // lists of more may be narrowed down to receivers block by block,
-constexpr double kMostKept = 0.4;          // if one receiver keeps at most that share
+constexpr std::size_t kShortList = 24;        // edges; shorter lists are not narrowed
+constexpr std::size_t kFewReceivers = 16;     // a quarter of a tile: narrowing for fewer costs what it saves
+constexpr std::size_t kMostToCertify = 8192;  // edges; with more, rays cost less than to look for what is
+                                              // hardly ever found there
+constexpr std::size_t kManyBlocks = 64;  // lists of more may be narrowed down to receivers block by block,
+constexpr double kMostKept = 0.4;        // if one receiver keeps at most that share
 constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
 
 /// What one thread keeps between tiles, and what it has counted.
@@ -216,6 +218,7 @@ void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) co
 
 void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
   const Receiver& r = w.receivers[i];
+  if (!options_.integrate && list.size() > kMostToCertify) return w.open.push_back(r.pixel);
   look(list, r.x, r.horizon, slack_, w.sight);
   w.counts.projected_edges += list.size();
   judge(i, w);
@@ -223,7 +226,8 @@ void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) con
 
 void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& list, Workspace& w) const {
   const Receiver& r = w.receivers[i];
-  blocks_.sift(tree_, list, r, w.sight.sifted);
+  const std::size_t most = options_.integrate ? blocks_.count() : kMostToCertify / BandTree::kFanOut;
+  if (!blocks_.sift(tree_, list, r, most, w.sight.sifted)) return w.open.push_back(r.pixel);
   look(band_, w.sight.sifted, r.x, r.horizon, slack_, w.sight);
   w.counts.projected_edges += BandTree::kFanOut * w.sight.sifted.looked_into;
   judge(i, w);

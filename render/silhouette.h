@@ -30,7 +30,8 @@ namespace penumbra {
 struct SilhouetteOptions {
   int rows = 64;                ///< scanlines where more than two levels may occur, 4 to 1024; three quarters
                                 ///< of them where fewer than 256 edges cross the disk
-  bool integrate = true;        ///< false: certificates only; pixels without one are listed in `open`
+  bool integrate = true;        ///< false: certificates only; pixels without one are listed in `open`, and
+                                ///< such that would have to look at more than some 8,000 edges are not tried
   int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (none are known) or the offset
                                 ///< moves a receiver behind the light's plane; counted
 };

@@ -115,16 +115,18 @@ void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
     }
 }
 
-void EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
-                      Sifted& out) const {
+bool EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
+                      std::size_t most, Sifted& out) const {
   const auto at_least = [](auto& buffer, std::size_t size) { buffer.resize(std::max(buffer.size(), size)); };
   at_least(out.blocks, (list.size() + 1) * kFloatLanes);
   out.looked_into = keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
                                 out.blocks.data());
+  if (out.looked_into > most) return false;
   at_least(out.places, (out.looked_into + 1) * kFloatLanes);
   at_least(out.jumps, out.places.size());
   out.count = sift_blocks(blocks_.data(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
                           out.places.data(), out.jumps.data());
+  return true;
 }
 
 int EdgeBlocks::sift_one(std::size_t i, const Vec3& x) const {

@@ -24,10 +24,12 @@ class EdgeBlocks {
   /// ascending: all but those whose faces keep their sides for all receivers, or that the shaft misses. Cost
   /// O(edges of the list). Compiled for several instruction sets with the same result.
   void gather(const std::vector<Siblings>& list, const Shaft& shaft, std::vector<std::uint32_t>& out) const;
-  /// Edges by their indices in the band, ascending. Cost: some 5 flops an edge of the list, 13 of those
-  /// blocks that are not dropped. Compiled for several instruction sets with the same result.
-  void sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
-            Sifted& out) const;
+  /// Edges by their indices in the band, ascending; false where more than `most` blocks would have to be
+  /// looked into. Cost: some 5 flops an edge of the list, 13 of those blocks that are not dropped. Compiled
+  /// for several instruction sets with the same result.
+  bool sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
+            std::size_t most, Sifted& out) const;
+  std::size_t count() const { return blocks_.size(); }
   /// Of edge `i`, 0: dismissed, else its jump. Tests compare with it.
   int sift_one(std::size_t i, const Vec3& x) const;
 

@@ -5,58 +5,61 @@
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <optional>
 
+#include "render/ray_scene.h"
 #include "volumes/detail/vectors.h"
 
 namespace penumbra::detail {
 namespace {
 
-bool in_front(const Vec3& p) {
-  return p.z > 0.0;
-}
+/// Before the plane z = depth, where casters end.
+class FrontSide {
+ public:
+  explicit FrontSide(double depth) : depth_(depth) {}
+  bool operator()(const Vec3& p) const { return p.z > depth_; }
+  /// Where the segment between a point in front and one behind meets the plane; the same bits for both
+  /// directions.
+  Vec3 cut(const Vec3& a, const Vec3& b) const {
+    const Vec3& front = (*this)(a) ? a : b;
+    const Vec3& back = (*this)(a) ? b : a;
+    const double t = (front.z - depth_) / (front.z - back.z);
+    return {front.x + t * (back.x - front.x), front.y + t * (back.y - front.y), depth_};
+  }
 
-/// Where the segment meets z = 0; the same bits for both directions.
-Vec3 cut(const Vec3& a, const Vec3& b) {
-  const Vec3& front = in_front(a) ? a : b;
-  const Vec3& back = in_front(a) ? b : a;
-  const double t = front.z / (front.z - back.z);
-  return {front.x + t * (back.x - front.x), front.y + t * (back.y - front.y), 0.0};
-}
+ private:
+  double depth_;
+};
 
 /// A caster under the light. Vertices are taken to the light's frame where they are needed, with the same
 /// bits each time.
 class LitCaster {
  public:
-  LitCaster(const TriangleMesh& mesh, const UnitLight& light, double extent)
-      : mesh_(mesh), to_frame_{light}, extent_(extent), box_(box_of(mesh.positions())) {}
+  LitCaster(const TriangleMesh& mesh, const UnitLight& light, const FrontSide& front, double extent)
+      : mesh_(mesh), to_frame_{light}, in_front_(front), extent_(extent), box_(box_of(mesh.positions())) {
+    if (!all_in_front()) find_front();
+  }
 
   const Bounds& box() const { return box_; }
-  bool all_in_front() const { return in_front(box_.low); }
+  bool all_in_front() const { return in_front_(box_.low); }
 
+  /// Of casters that are not all in front.
   bool has_end_in_front(EdgeId id) const {
     const Edge& e = mesh_.edges[index(id)];
-    return in_front(to_frame_(mesh_.positions[index(e.from)])) ||
-           in_front(to_frame_(mesh_.positions[index(e.to)]));
+    return front_[index(e.from)] || front_[index(e.to)];
   }
+  bool crosses(FaceId face) const {
+    const auto& [a, b, c] = mesh_.triangles[index(face)];
+    return front_[a] != front_[b] || front_[b] != front_[c];
+  }
+  std::size_t face_count() const { return mesh_.triangles.size(); }
 
   BandEdge edge(EdgeId id) const {
     BandEdge e = mesh_.edge(id, to_frame_, extent_);
     const Vec3 a = e.a, b = e.b;
-    if (!in_front(a)) e.a = cut(a, b);
-    if (!in_front(b)) e.b = cut(a, b);
+    if (!in_front_(a)) e.a = in_front_.cut(a, b);
+    if (!in_front_(b)) e.b = in_front_.cut(a, b);
     return e;
-  }
-
-  /// Of the edge's faces those that cross the light's plane.
-  void add_cut_faces(EdgeId id, std::vector<FaceId>& out) const {
-    const Edge& e = mesh_.edges[index(id)];
-    for (const FaceId face : {e.left, e.right}) {
-      if (face == kNone<FaceId>) continue;
-      const auto [a, b, c] = mesh_.corners(face, to_frame_);
-      if (in_front(a) != in_front(b) || in_front(b) != in_front(c)) out.push_back(face);
-    }
   }
 
   /// The front part of a face that crosses the light's plane ends where it leaves the front and begins again
@@ -66,7 +69,7 @@ class LitCaster {
     BandEdge e{Vec3(0.0), Vec3(0.0), mesh_.plane(face, to_frame_, extent_), kNoFace};
     for (int k = 0; k < 3; ++k) {
       const Vec3 &p = corners[k], &q = corners[(k + 1) % 3];
-      if (in_front(p) != in_front(q)) (in_front(p) ? e.a : e.b) = cut(p, q);
+      if (in_front_(p) != in_front_(q)) (in_front_(p) ? e.a : e.b) = in_front_.cut(p, q);
     }
     return e;
   }
@@ -89,6 +92,14 @@ class LitCaster {
         });
   }
 
+  void find_front() {
+    front_.resize(mesh_.positions.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, front_.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        front_[i] = in_front_(to_frame_(mesh_.positions[i]));
+    });
+  }
+
   struct ToFrame {
     const UnitLight& light;
     Vec3 operator()(const Vec3& p) const { return light.point(p); }
@@ -96,8 +107,10 @@ class LitCaster {
 
   MeshArrays mesh_;
   ToFrame to_frame_;
+  FrontSide in_front_;
   double extent_;
   Bounds box_;
+  std::vector<char> front_;  ///< of each vertex, where some are not
 };
 
 /// One place per object; none for those that do not cast.
@@ -106,27 +119,23 @@ using LitCasters = std::vector<std::optional<LitCaster>>;
 struct CutFace {
   std::uint32_t object;
   FaceId face;
-  auto operator<=>(const CutFace&) const = default;
 };
 
-/// Takes edges that lie behind the light's plane out; what is left of faces that cross it is bounded by the
-/// faces that are returned. (A mixed face has all of its edges in the band.)
+/// Takes edges that lie behind the plane where casters end out; what is left of faces that cross it is
+/// bounded by the faces that are returned. Cost O(faces) of casters that are not wholly in front of it.
 std::vector<CutFace> cut_at_light(const LitCasters& casters, std::vector<SceneEdge>& edges) {
+  const auto is_cut = [](const auto& c) { return c && !c->all_in_front(); };
   std::vector<CutFace> cuts;
-  if (std::ranges::all_of(casters, [](const auto& c) { return !c || c->all_in_front(); })) return cuts;
+  if (std::ranges::none_of(casters, is_cut)) return cuts;
   std::erase_if(edges, [&](const SceneEdge& e) {
     const LitCaster& caster = *casters[e.object];
     return !caster.all_in_front() && !caster.has_end_in_front(e.id);
   });
-  std::vector<FaceId> faces;
-  for (const SceneEdge& e : edges) {
-    if (casters[e.object]->all_in_front()) continue;
-    faces.clear();
-    casters[e.object]->add_cut_faces(e.id, faces);
-    for (const FaceId face : faces) cuts.push_back({e.object, face});
+  for (std::uint32_t object = 0; object < casters.size(); ++object) {
+    if (!is_cut(casters[object])) continue;
+    for (std::uint32_t face = 0; face < casters[object]->face_count(); ++face)
+      if (casters[object]->crosses(FaceId{face})) cuts.push_back({object, FaceId{face}});
   }
-  std::ranges::sort(cuts);
-  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
   return cuts;
 }
 
@@ -141,10 +150,16 @@ double extent_of(const Scene& scene, const UnitLight& light) {
   return extent;
 }
 
+/// By a little more than half a radian: a slope of the golden section, far from those of regular patterns.
+LightFrame turned(const LightFrame& axes) {
+  constexpr double kCosine = 0.85065080835203993, kSine = 0.52573111211913361;
+  return {kCosine * axes.u + kSine * axes.v, kCosine * axes.v - kSine * axes.u, axes.w};
+}
+
 }  // namespace
 
 UnitLight::UnitLight(const DiskLight& light)
-    : axes_(light_frame(light)),
+    : axes_(turned(light_frame(light))),
       center_(light.center),
       across_(light.radius * axes_.u),
       up_(light.radius * axes_.v),
@@ -154,11 +169,12 @@ Band make_band(const Scene& scene, const UnitLight& light, const SceneEdges& sce
                std::span<const char> idle) {
   Band band;
   band.extent = extent_of(scene, light);
+  const FrontSide front(kLightOffset / scene_edges.scale() * light.per_radius());
   LitCasters casters(scene.objects.size());
   for (std::size_t i = 0; i < casters.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     if (!object.casts || object.mesh.empty() || (!idle.empty() && idle[i])) continue;
-    casters[i].emplace(object.mesh, light, band.extent);
+    casters[i].emplace(object.mesh, light, front, band.extent);
     band.casters.push_back(casters[i]->box());
     band.faces += object.mesh.triangles().size();
     band.mesh_edges += object.mesh.edges().size();

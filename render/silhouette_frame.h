@@ -2,9 +2,9 @@
 //
 // In: scene. Out: the silhouette band (volumes/silhouette.h) of all casters, in a frame where the light is
 // the unit disk in z = 0 and shines towards +z. Whatever lies behind the light's plane does not cast, so
-// edges are cut there; where a face itself crosses that plane, the cut is one more edge with a face on one
-// side only. (Strictly classified faces need none: their plane, hence the cut, misses the disk.) Which edges
-// those are comes from a hierarchy that serves every light (scene_edges.h).
+// edges are cut there (where rays end, kLightOffset in front of it); where a face itself crosses that plane,
+// the cut is one more edge with a face on one side only. Which edges the band has comes from a hierarchy that
+// serves every light (scene_edges.h).
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,7 +17,9 @@
 
 namespace penumbra::detail {
 
-/// The frame: p → ((p - center)·u, (p - center)·v, (p - center)·w) / radius. Requires radius > 0.
+/// The frame: p → ((p - center)·u, (p - center)·v, (p - center)·w) / radius. u and v are turned against
+/// those of the light, which often run along walls, bars and treads: no row of scanlines shall run along
+/// them. Requires radius > 0.
 class UnitLight {
  public:
   explicit UnitLight(const DiskLight& light);
@@ -26,6 +28,7 @@ class UnitLight {
   Vec3 direction(const Vec3& world) const {
     return {glm::dot(world, axes_.u), glm::dot(world, axes_.v), glm::dot(world, axes_.w)};
   }
+  const Vec3& normal() const { return axes_.w; }
   Vec3 world_on_disk(const glm::dvec2& p) const { return center_ + p.x * across_ + p.y * up_; }
   double per_radius() const { return per_radius_; }
 

@@ -32,7 +32,8 @@ void set_lane(const RayTask& task, const RayFrame& frame, const SurfaceBuffer& s
   }
   packet.org_x[k] = ray.from.x, packet.org_y[k] = ray.from.y, packet.org_z[k] = ray.from.z;
   packet.dir_x[k] = ray.way.x, packet.dir_y[k] = ray.way.y, packet.dir_z[k] = ray.way.z;
-  packet.tnear[k] = 0.0f, packet.tfar[k] = 1.0f, packet.time[k] = 0.0f;
+  packet.tnear[k] = 0.0f, packet.time[k] = 0.0f;
+  packet.tfar[k] = ray_end(-glm::dot(ray.way, glm::vec3(light.normal())));
   packet.mask[k] = ~0u, packet.id[k] = 0, packet.flags[k] = 0;
 }
 

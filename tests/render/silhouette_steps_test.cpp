@@ -264,7 +264,7 @@ TEST(EdgeBlocks, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
     for (std::size_t r = 0; r < receivers.size(); ++r) {
       const Receiver& receiver = receivers[r];
       Sifted sifted, singly;
-      blocks.sift(tree, r < 4 ? few : list, receiver, sifted);
+      EXPECT_TRUE(blocks.sift(tree, r < 4 ? few : list, receiver, blocks.count(), sifted));
       for (std::size_t b = 0; b < sifted.looked_into; ++b)
         for (std::uint32_t lane = 0; lane < 8; ++lane) {
           const std::uint32_t i = 8 * static_cast<std::uint32_t>(sifted.blocks[b]) + lane;
