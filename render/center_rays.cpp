@@ -45,7 +45,8 @@ struct AboveHorizon {
   float ux, uy, uz;  ///< up the disk: the receiver's normal without its part along the light's
   float size;        ///< of that
   float height;      ///< of the center above the horizon
-  bool behind;       ///< the light
+  float before;      ///< the light's plane, so far
+  bool behind;       ///< the light, or in its plane: the surface, not the ray's origin
 };
 
 PENUMBRA_INLINE AboveHorizon above_horizon_of(const ReceiverLanes& from, std::size_t k,
@@ -57,7 +58,8 @@ PENUMBRA_INLINE AboveHorizon above_horizon_of(const ReceiverLanes& from, std::si
   out.ux = nx - along * disk.mx, out.uy = ny - along * disk.my, out.uz = nz - along * disk.mz;
   out.size = std::sqrt(out.ux * out.ux + out.uy * out.uy + out.uz * out.uz);
   out.height = nx * out.x + ny * out.y + nz * out.z;
-  out.behind = out.x * disk.mx + out.y * disk.my + out.z * disk.mz >= 0.0f;
+  out.before = -(out.x * disk.mx + out.y * disk.my + out.z * disk.mz);
+  out.behind = out.before - static_cast<float>(kRayOffset) * along <= static_cast<float>(kLightOffset);
   return out;
 }
 
@@ -72,6 +74,7 @@ void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int
     packet.dir_x[k] = seen.x + lift * seen.ux;
     packet.dir_y[k] = seen.y + lift * seen.uy;
     packet.dir_z[k] = seen.z + lift * seen.uz;
+    packet.tfar[k] = ray_end(seen.before);
     wanted[k] = (seen.height > 0.0f || lifted) && !seen.behind ? -1 : 0;
   }
 }
@@ -114,7 +117,7 @@ struct Packet {
   void trace(const ReceiverLanes& from, RTCScene casters) {
     for (std::size_t k = 0; k < kLanes; ++k) {
       ray.org_x[k] = from.x[k], ray.org_y[k] = from.y[k], ray.org_z[k] = from.z[k];
-      ray.tnear[k] = 0.0f, ray.tfar[k] = 1.0f, ray.mask[k] = ~0u;
+      ray.tnear[k] = 0.0f, ray.mask[k] = ~0u;
     }
     rtcOccluded16(wanted, casters, &context, &ray);
   }
@@ -226,13 +229,14 @@ std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
     const glm::vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
     const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
     if (!(open > 0.0f)) return 0.0f;
+    const float end = ray_end(above_horizon_of(lanes(at), 0, disk).before);
     alignas(64) RTCRay16 ray{};
     alignas(64) int above[kLanes];
     for (std::size_t k = 0; k < kLanes; ++k) {
       const glm::vec3 way = center + points[k].x * u + points[k].y * v - from;
       ray.org_x[k] = from.x, ray.org_y[k] = from.y, ray.org_z[k] = from.z;
       ray.dir_x[k] = way.x, ray.dir_y[k] = way.y, ray.dir_z[k] = way.z;
-      ray.tfar[k] = 1.0f, ray.mask[k] = ~0u;
+      ray.tfar[k] = end, ray.mask[k] = ~0u;
       above[k] = glm::dot(way, n) > 0.0f ? -1 : 0;
     }
     RTCIntersectContext context;

@@ -73,7 +73,7 @@ std::uint32_t beyond(const ImageSurface& image, std::uint32_t i, std::uint32_t j
 void VisibilitySteps::begin() {
   share_.resize(visibility_.size());
   answer_.assign(visibility_.size(), kNone);
-  known_.assign(visibility_.size(), 0);
+  known_.assign(visibility_.size(), kNotAsked);
   asked_.clear();
   before_ = 0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, share_.size(), 8192), [&](const auto& range) {
@@ -91,7 +91,26 @@ std::vector<std::uint32_t> VisibilitySteps::find(std::span<const std::uint32_t> 
   for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  for (const std::uint32_t i : out) known_[i] = 1;
+  for (const std::uint32_t i : out) known_[i] = kDoubtful;
+  for (const std::uint32_t i : sentinels()) {
+    if (known_[i] != kNotAsked) continue;
+    known_[i] = kSentinel;
+    out.push_back(i);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::vector<std::uint32_t> VisibilitySteps::sentinels() const {
+  constexpr int kInShadow = 8, kInLight = 16;
+  std::vector<std::uint32_t> out;
+  for (int y = kInShadow / 2; y < image_.height; y += kInShadow)
+    for (int x = kInShadow / 2; x < image_.width; x += kInShadow) {
+      const auto i = static_cast<std::uint32_t>(y * image_.width + x);
+      const bool wanted =
+          visibility_[i] < image_.open[i] || (x % kInLight < kInShadow && y % kInLight < kInShadow);
+      if (wanted && image_.positions[i].w != 0.0f && image_.open[i] > 0.0f) out.push_back(i);
+    }
   return out;
 }
 
@@ -138,8 +157,8 @@ std::vector<std::uint32_t> VisibilitySteps::take(std::span<const std::uint32_t> 
     if (!differs_[k]) continue;
     const std::uint32_t i = asked_[again + k];
     for_neighbours(image_, i, [&](std::uint32_t j) {
-      if (known_[j] || !is_one_surface(image_, i, j, kTurned)) return;
-      known_[j] = 1;
+      if (known_[j] != kNotAsked || !is_one_surface(image_, i, j, kTurned)) return;
+      known_[j] = known_[i];
       next.push_back(j);
     });
   }
@@ -173,7 +192,9 @@ void VisibilitySteps::settle() {
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
       const std::uint32_t i = asked_[k];
       const Mean mean = mean_answer(i);
-      const float weight = std::clamp(2.0f * difference(i, mean) - 1.0f, 0.0f, 1.0f);
+      // Of a few answers that nothing but a sentinel asked for, what differs is noise more often than not.
+      const float belief = mean.answers < 9 && known_[i] == kSentinel ? 0.5f : 1.0f;
+      const float weight = std::clamp(2.0f * belief * difference(i, mean) - 1.0f, 0.0f, 1.0f);
       visibility_[i] += weight * (mean.visibility - visibility_[i]);
     }
   });

@@ -37,10 +37,11 @@ std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image);
 /// Where rays are asked, and what becomes of their answers. Keeps its memory from one image to the next.
 class VisibilitySteps {
  public:
-  /// Asks about the pixels in `anyway` (ascending), about both sides of every step between neighbours on one
-  /// surface, and about the neighbours of every pixel where the answers differ from `visibility` by more than
-  /// their noise. Where they do, the mean of those on flat ground around a pixel takes its place, in opposite
-  /// pairs so that a slope does not shift it; where they differ by less, only in part, so that no edge shows.
+  /// Asks about the pixels in `anyway`, about both sides of every step between neighbours on one surface,
+  /// about a few at even distances (entries may be wrong all over a surface, and then contradict nothing),
+  /// and about the neighbours of every pixel where the answers differ from `visibility` by more than their
+  /// noise. Where they do, the mean of those on flat ground around a pixel takes its place, in opposite pairs
+  /// so that a slope does not shift it; where they differ by less, only in part, so that no edge shows.
   /// Returns how many pixels were asked, each once; all of them see a surface. Cost O(pixels) and the
   /// answers, on all cores.
   std::size_t ask(const ImageSurface& image, std::span<const std::uint32_t> anyway, const AskVisibility& ask,
@@ -48,8 +49,10 @@ class VisibilitySteps {
 
  private:
   void begin();
-  /// Those given and the pixels on either side of a step, in the image's order.
+  /// Those given, the pixels on either side of a step, and sentinels, in the image's order.
   std::vector<std::uint32_t> find(std::span<const std::uint32_t> anyway);
+  /// Where something hides the light every eighth pixel of every eighth row, elsewhere one in four of these.
+  std::vector<std::uint32_t> sentinels() const;
   /// Both sides of the steps between a row's pixels and to the next row's.
   void find_in_row(int y, std::vector<std::uint32_t>& out) const;
   /// Of `count` pixels from `begin` and those `apart` further on.
@@ -76,7 +79,9 @@ class VisibilitySteps {
   std::span<float> visibility_;  ///< by the entries
   std::vector<float> share_;     ///< of what is above the horizon, by the entries
   std::vector<float> answer_;    ///< visibility by rays; negative where they were not asked
-  std::vector<char> known_;      ///< asked or about to be
+  enum Reason : char { kNotAsked, kDoubtful, kSentinel };
+  std::vector<Reason>
+      known_;  ///< why pixels were asked, or are about to be; neighbours of one for its reason
   std::vector<std::uint32_t> asked_;
   std::size_t before_ = 0;     ///< how many were asked before the last time
   std::vector<char> differs_;  ///< of those asked the last two times: the answers from the entries

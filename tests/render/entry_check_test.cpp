@@ -82,31 +82,33 @@ TEST(EntryCheck, AHoleInAPenumbraIsFilledFromItsBorder) {
   EXPECT_LE(asked, 14u * 12u);
 }
 
+/// Asks an oracle that agrees with the entries: nothing but sentinels, which change nothing.
+void expect_no_step(const Plane& plane, const Values& entries) {
+  Oracle oracle{entries};
+  Values v = entries;
+  detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v);
+  for (const std::uint32_t i : oracle.asked)
+    EXPECT_TRUE(i % 24 % 8 == 4 && i / 24 % 8 == 4) << "pixel " << i << " is no sentinel";
+  EXPECT_EQ(v, entries);
+}
+
 TEST(EntryCheck, SlopesAndEdgesOfSurfacesAreNoSteps) {
   Plane plane(24, 20);
-  Oracle oracle{Values(24 * 20, 0.5f)};
   Values slope(24 * 20), edge(24 * 20);
   for (std::size_t i = 0; i < slope.size(); ++i) {
     slope[i] = std::clamp(0.15f * static_cast<float>(i % 24) - 1.0f, 0.0f, 1.0f);
     edge[i] = i % 24 < 12 ? 0.0f : 1.0f;
   }
-  Values v = slope;
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 0u);
-  EXPECT_EQ(v, slope);
+  expect_no_step(plane, slope);
   for (std::size_t i = 0; i < edge.size(); ++i)
     if (edge[i] > 0.0f) plane.positions[i].z = 7.0f;  // another surface
-  v = edge;
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 0u);
-  EXPECT_EQ(v, edge);
+  expect_no_step(plane, edge);
 }
 
 TEST(EntryCheck, AStepOfTheHorizonAloneIsNone) {
   Plane plane(24, 20);
-  Oracle oracle{Values(24 * 20, 0.0f)};
   for (std::size_t i = 0; i < plane.open.size(); ++i) plane.open[i] = i % 24 < 12 ? 0.4f : 1.0f;
-  Values v = plane.open;
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 0u);
-  EXPECT_EQ(v, plane.open);
+  expect_no_step(plane, plane.open);
 }
 
 TEST(EntryCheck, AnswersThatAgreeChangeNothing) {
@@ -116,8 +118,30 @@ TEST(EntryCheck, AnswersThatAgreeChangeNothing) {
   Oracle oracle{edge};
   for (float& value : oracle.truth) value += 0.01f;
   Values v = edge;
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 2u * 20u);
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 2u * 20u + 4u)
+      << "both sides of the step, and sentinels";
   EXPECT_EQ(v, edge);
+}
+
+TEST(EntryCheck, EntriesThatAreWrongAllOverAreFound) {
+  const Plane plane(24, 20);
+  for (const float entry : {0.0f, 0.5f, 1.0f}) {
+    Oracle oracle{Values(24 * 20, 0.75f)};
+    Values v(24 * 20, entry);
+    EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), v.size());
+    for (std::size_t y = 1; y < 19; ++y)
+      for (std::size_t x = 1; x < 23; ++x) EXPECT_FLOAT_EQ(v[y * 24 + x], 0.75f) << "from " << entry;
+  }
+}
+
+TEST(EntryCheck, ASentinelThatErrsByItsNoiseChangesNothing) {
+  const Plane plane(24, 20);
+  Oracle oracle{Values(24 * 20, 0.5f)};
+  oracle.truth[12 * 24 + 12] = 0.6f;
+  Values v(24 * 20, 0.5f);
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 6u + 4u)
+      << "all, and the neighbours of one";
+  for (std::size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], 0.5f, 0.025f) << "pixel " << i;
 }
 
 /// What each of three by three pixels errs by, 0 in sum.
@@ -170,7 +194,8 @@ TEST(EntryCheck, WhatNoNeighbourCanContradictIsAskedAnyway) {
   Oracle oracle{Values(24 * 20, 0.3f)};
   Values v(24 * 20, 0.3f);
   v[leaf] = 1.0f;
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), lonely, oracle.ask(), v), lonely.size());
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), lonely, oracle.ask(), v), lonely.size() + 6u)
+      << "these, and sentinels";
   EXPECT_EQ(v, oracle.truth);
 }
 
