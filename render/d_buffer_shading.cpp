@@ -34,6 +34,18 @@ bool is_known(const DBufferOptions& o, int targets) {
   return o.center == CenterTest::kRay && targets <= 1;
 }
 
+/// Pixels whose entries contradict what is known of the light's center, ascending; the shader adds 2 to their
+/// visibility, which is taken off.
+std::vector<std::uint32_t> take_doubts(std::vector<float>& visibility) {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < visibility.size(); ++i) {
+    if (visibility[i] < 1.5f) continue;
+    visibility[i] -= 2.0f;
+    out.push_back(i);
+  }
+  return out;
+}
+
 }  // namespace
 
 /// One set for each way of reading the D-buffer.
@@ -208,11 +220,14 @@ void DBufferShading::test_center_by_depth(const Programs& programs, const DBuffe
 }
 
 /// Asks rays where entries contradict each other.
-void DBufferShading::check(const DiskLight& light, std::vector<float>& visibility) {
+void DBufferShading::check(const DiskLight& light, std::span<const std::uint32_t> doubtful,
+                           std::vector<float>& visibility) {
+  std::vector<std::uint32_t> anyway = lonely_;
+  anyway.insert(anyway.end(), doubtful.begin(), doubtful.end());
   const auto ask = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
   };
-  sampled_ = steps_.ask({width_, height_, positions_, normals_, open_}, lonely_, ask, visibility);
+  sampled_ = steps_.ask({width_, height_, positions_, normals_, open_}, anyway, ask, visibility);
 }
 
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
@@ -238,8 +253,9 @@ std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferVi
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   gl_.ReadBuffer(color);
   gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, out.data());
+  const std::vector<std::uint32_t> doubtful = take_doubts(out);
   sampled_ = 0;
-  if (checks(options)) check(light, out);
+  if (checks(options)) check(light, doubtful, out);
   return out;
 }
 

@@ -60,7 +60,7 @@ class DBufferShading {
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
                     GLuint records) const;
-  void check(const DiskLight& light, std::vector<float>& visibility);
+  void check(const DiskLight& light, std::span<const std::uint32_t> doubtful, std::vector<float>& visibility);
   void bind_textures(const gl::Program& program, const DBufferLayers& layers, GLuint records) const;
 
   const gl::Functions& gl_;

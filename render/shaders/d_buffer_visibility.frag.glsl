@@ -45,8 +45,10 @@ struct Share {
   float visibility;  // -1: the entry says nothing about this receiver
   Chord chord;
   bool has_other;    // edge: it is part of the same boundary
+  bool doubtful;     // it contradicts what is known of the disk's center
 };
-const Share kNoShare = Share(-1.0, kWholeDisk, false);
+const Share kNoShare = Share(-1.0, kWholeDisk, false, false);
+const float kDoubt = 2.0;  // added to a visibility that rays should be asked about
 
 // Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what is
 // known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
@@ -57,14 +59,16 @@ Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
   Chord chord = chord_of_plane(plane, r.x, radius);
   bool below = max(dot(r.n, a - r.x), dot(r.n, b - r.x)) <= kOnPlane * r.x.z;  // the receiver's own plane hides it
   if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return kNoShare;
-  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, false);
+  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, false, false);
   if (horizon.delta >= 1.0) {
     Past past = past_boundary(facet, other, a, b, chord, r.x);
     bool agrees = past.center != r.hidden && abs(past.area) < 2.0;  // and is a number
-    if (agrees) return Share(clamp(past.area, 0.0, 1.0), chord, past.met);
+    if (agrees) return Share(clamp(past.area, 0.0, 1.0), chord, past.met, false);
   }
-  chord.delta = agreeing(chord.delta, r.hidden);
-  return Share(two_half_planes_area(chord, horizon), chord, false);
+  float agreed = agreeing(chord.delta, r.hidden);
+  bool doubtful = agreed != chord.delta;
+  chord.delta = agreed;
+  return Share(two_half_planes_area(chord, horizon), chord, false, doubtful);
 }
 
 // The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the same
@@ -73,7 +77,7 @@ Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   float edge = uintBitsToFloat(e.content);
   if (r.weight >= e.weight || edge <= r.weight) return kNoShare;
   float t = (e.weight - r.weight) / (2.0 * (edge - r.weight));
-  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, false);
+  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, false, false);
 }
 
 Share share_of(Entry e, uint other, Receiver r, Texel t, Chord horizon) {
@@ -116,5 +120,6 @@ void main() {
     visibility = r.hidden ? 0.0 : half_plane_area(horizon.delta);
   } else {
     visibility = second.visibility < 0.0 ? first.visibility : union_of(first, second, umbra);
+    if (first.doubtful || second.doubtful) visibility += kDoubt;
   }
 }
