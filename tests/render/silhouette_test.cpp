@@ -181,6 +181,45 @@ TEST(Silhouette, CastersThatCrossTheLightsPlane) {
                    "triangle through it");
 }
 
+TEST(Silhouette, ASheetInTheLightsPlaneHidesNothing) {
+  for (const double tilt : {0.0, 1e-18, -1e-17, 1e-16}) {
+    std::vector<Vec3> points;
+    std::vector<IndexedTriangle> faces;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      const double x = 0.2 * i - 0.7, z = i % 2 ? tilt : -tilt;
+      points.insert(points.end(), {{x, -0.4, z}, {x, 0.45, -z}});
+      if (i > 0) faces.insert(faces.end(), {{2 * i - 2, 2 * i - 1, 2 * i}, {2 * i, 2 * i - 1, 2 * i + 1}});
+    }
+    const Scene scene = testing::scene_in_light_frame(0.8, {TriangleMesh::build(points, faces)});
+    for (const float v : see(scene, grid(6.0, 10.0, 32)).visibility) EXPECT_EQ(v, 1.0f) << tilt;
+  }
+}
+
+/// Two layers of thin bars across the light, along x or y.
+Scene fence(bool along_x) {
+  std::vector<TriangleMesh> bars;
+  for (int k = 0; k < 44; ++k)
+    for (const double z : {0.05, 0.3}) {
+      const double at = 0.05 * k - 1.1, width = 0.018;
+      bars.push_back(along_x ? testing::rectangle(-2.0, 2.0, at, at + width, z)
+                             : testing::rectangle(at, at + width, -2.0, 2.0, z));
+    }
+  return testing::scene_in_light_frame(1.0, std::move(bars));
+}
+
+TEST(Silhouette, RowsMeasureRegularPatterns) {
+  for (const bool along_x : {false, true}) {
+    const Scene scene = fence(along_x);
+    const SurfaceBuffer surface = grid(4.0, 10.0, 24);
+    const RayScene rays(scene, 0);
+    SilhouetteOptions options;
+    const Values usual = silhouette_visibility(scene, rays, surface, options).visibility;
+    options.rows = 1024;
+    const Values fine = silhouette_visibility(scene, rays, surface, options).visibility;
+    for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_NEAR(usual[i], fine[i], 0.005) << i;
+  }
+}
+
 TEST(Silhouette, CoincidentCastersAreOne) {
   const TriangleMesh box = make_box({0, 1.2, 0}, {0.6, 0.5, 0.4});
   const Scene one = scene_over_floor({box}, kLamp), two = scene_over_floor({box, box}, kLamp);
