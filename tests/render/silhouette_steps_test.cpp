@@ -124,6 +124,24 @@ TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
   EXPECT_LE(worst_points, 0.02) << "cells of 1/100 along boundaries of length below 20";
 }
 
+TEST(Fuse, WhatLiesBetweenRowsIsFound) {
+  // A triangle over half of the disk, and thirty strips on top of each other between two of 64 rows.
+  std::vector<Segment> segments;
+  const auto outline = [&](std::vector<dvec2> corners) {
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      segments.push_back({corners[k], corners[(k + 1) % corners.size()], 2});
+  };
+  outline({{-0.8, -0.5}, {0.7, -0.6}, {0.1, 0.7}});
+  for (int k = 0; k < 30; ++k)
+    outline({{-0.9 + 0.001 * k, -0.006}, {0.9, -0.0055}, {0.9, 0.0055}, {-0.9 + 0.001 * k, 0.006}});
+  const DiskPart part(no_horizon());
+  Cut cut;
+  cut_segments(segments, 0, part, cut);
+  Fuser fuser;
+  const double exact = fuser.by_slabs(cut, part).area;
+  EXPECT_NEAR(fuser.by_rows(cut, part, 64).area, exact, 0.01);
+}
+
 TEST(Rows, VectorsAgreeWithRowsSortedSingly) {
   Random random(19);
   Rows together, singly;
