@@ -147,7 +147,8 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
     const std::uint32_t face = first_face[static_cast<std::size_t>(surface.object[i])] + surface.face[i] + 1;
     positions[i] = glm::vec4(glm::vec3((surface.position[i] - origin) * scale), static_cast<float>(face));
   }
-  for (Caster& caster : casters) caster.planes.set_receivers(positions);
+  const detail::ReceiverCloud receivers(positions);
+  for (Caster& caster : casters) caster.planes.set_receivers(receivers);
   shading.set_surface(surface, std::move(positions), rays);
   gl::require_no_error(gl, "uploading the surface buffer");
 }

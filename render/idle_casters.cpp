@@ -2,10 +2,11 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "volumes/detail/vectors.h"
 
@@ -13,7 +14,9 @@ namespace penumbra::detail {
 namespace {
 
 constexpr std::size_t kMostFaces = 100, kMostPlanes = 16;
-constexpr double kOnPlane = 1e-9;  // what rounding leaves between a face and its own plane
+constexpr std::size_t kPerBox = 64;
+constexpr double kRounding = 1e-12;  // in a frame of size 1: a box that is nearer by less is not looked into
+constexpr double kOnPlane = 1e-9;    // what rounding leaves between a face and its own plane
 
 /// In front of the plane at least this far is every point of the disk.
 double nearest_of_disk(const DiskLight& light, const Vec3& normal, double center_in_front) {
@@ -22,6 +25,39 @@ double nearest_of_disk(const DiskLight& light, const Vec3& normal, double center
 }
 
 }  // namespace
+
+ReceiverCloud::ReceiverCloud(std::span<const glm::vec4> positions)
+    : positions_(positions), boxes_((positions.size() + kPerBox - 1) / kPerBox) {
+  tbb::parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t k) {
+    Bounds bounds;
+    for (const glm::vec4& p :
+         positions.subspan(k * kPerBox, std::min(kPerBox, positions.size() - k * kPerBox)))
+      if (p.w != 0.0f) bounds.add(Vec3(p));
+    if (!bounds.empty()) boxes_[k] = {bounds.center(), 0.5 * (bounds.high - bounds.low), false};
+  });
+}
+
+double ReceiverCloud::nearest_along(const Vec3& normal) const {
+  const Vec3 reach = glm::abs(normal);
+  const auto least_of = [&](const Box& box) {
+    return glm::dot(normal, box.middle) - glm::dot(reach, box.half);
+  };
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto look_into = [&](std::size_t k) {
+    for (const glm::vec4& p :
+         positions_.subspan(k * kPerBox, std::min(kPerBox, positions_.size() - k * kPerBox)))
+      if (p.w != 0.0f) nearest = std::min(nearest, glm::dot(normal, Vec3(p)));
+  };
+  // First where the nearest one is likely to be, so that most of the others need no look.
+  std::size_t first = boxes_.size();
+  double least = nearest;
+  for (std::size_t k = 0; k < boxes_.size(); ++k)
+    if (!boxes_[k].empty && least_of(boxes_[k]) < least) least = least_of(boxes_[first = k]);
+  if (first < boxes_.size()) look_into(first);
+  for (std::size_t k = 0; k < boxes_.size(); ++k)
+    if (!boxes_[k].empty && k != first && least_of(boxes_[k]) < nearest - kRounding) look_into(k);
+  return nearest;
+}
 
 double CasterPlanes::Plane::in_front(const Vec3& p) const {
   return glm::dot(normal, p) - offset;
@@ -56,24 +92,10 @@ void CasterPlanes::add_plane(const std::vector<Vec3>& corners, const Vec3& norma
   planes_.push_back(std::move(plane));
 }
 
-void CasterPlanes::set_receivers(std::span<const glm::vec4> positions) {
-  using Nearest = std::vector<double>;
-  const Nearest none(planes_.size(), std::numeric_limits<double>::infinity());
-  const Nearest nearest = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, planes_.empty() ? 0 : positions.size(), 16384), none,
-      [&](const auto& range, Nearest out) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          if (positions[i].w == 0.0f) continue;
-          const Vec3 p(positions[i]);
-          for (std::size_t k = 0; k < planes_.size(); ++k) out[k] = std::min(out[k], planes_[k].in_front(p));
-        }
-        return out;
-      },
-      [](Nearest a, const Nearest& b) {
-        for (std::size_t k = 0; k < a.size(); ++k) a[k] = std::min(a[k], b[k]);
-        return a;
-      });
-  for (std::size_t k = 0; k < planes_.size(); ++k) planes_[k].nearest = nearest[k];
+void CasterPlanes::set_receivers(const ReceiverCloud& receivers) {
+  tbb::parallel_for(std::size_t{0}, planes_.size(), [&](std::size_t k) {
+    planes_[k].nearest = receivers.nearest_along(planes_[k].normal) - planes_[k].offset;
+  });
 }
 
 bool CasterPlanes::is_idle(const DiskLight& world, double slack) const {
@@ -107,15 +129,17 @@ std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, c
   constexpr std::size_t kSome = 1009;  // a prime: spread over rows and columns
   std::vector<char> idle(scene.objects.size(), 0);
   std::vector<glm::vec4> some, all;  // when they are needed
+  std::optional<ReceiverCloud> cloud;
   for (std::size_t k = 0; k < idle.size(); ++k) {
     if (!scene.objects[k].casts) continue;
     CasterPlanes planes(scene.objects[k].mesh, frame.origin, frame.scale);
     if (!planes.is_idle(scene.light)) continue;
     if (some.empty()) some = ray_origins(frame, surface, kSome);
-    planes.set_receivers(some);  // rules most casters out at little cost
+    planes.set_receivers(ReceiverCloud(some));  // rules most casters out at little cost
     if (!planes.is_idle(scene.light)) continue;
     if (all.empty()) all = ray_origins(frame, surface, 1);
-    planes.set_receivers(all);
+    if (!cloud) cloud.emplace(all);
+    planes.set_receivers(*cloud);
     idle[k] = planes.is_idle(scene.light);
   }
   return idle;

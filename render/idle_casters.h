@@ -16,15 +16,32 @@
 
 namespace penumbra::detail {
 
+/// Receivers of an image, and boxes of some that follow each other.
+class ReceiverCloud {
+ public:
+  /// The fourth number is 0 where nothing is seen; refers to the positions. Cost O(pixels), on all cores.
+  explicit ReceiverCloud(std::span<const glm::vec4> positions);
+  /// The least of normal · p over all receivers p, to 1e-12; infinite without any. Cost O(boxes), and the
+  /// receivers of a few.
+  double nearest_along(const Vec3& normal) const;
+
+ private:
+  struct Box {
+    Vec3 middle{0.0}, half{0.0};
+    bool empty = true;
+  };
+  std::span<const glm::vec4> positions_;
+  std::vector<Box> boxes_;
+};
+
 /// A caster's faces and the planes that they lie in, if it has few.
 class CasterPlanes {
  public:
   /// Planes and receivers are in the frame (p - origin) · scale, p in the scene. Cost O(1): a mesh of more
   /// than a hundred faces or of more than sixteen planes is not looked at, and never idle.
   CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double scale);
-  /// Of the image, in the frame; the fourth number is 0 where nothing is seen. Cost O(pixels · planes), on
-  /// all cores.
-  void set_receivers(std::span<const glm::vec4> positions);
+  /// Of the image, in the frame.
+  void set_receivers(const ReceiverCloud& receivers);
   /// True where every face is separated from the light and from the receivers by one of the planes; receivers
   /// may lie behind it by `slack`, in the frame. Before receivers are set there are none. Cost O(1).
   bool is_idle(const DiskLight& light, double slack = 0.0) const;

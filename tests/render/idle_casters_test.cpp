@@ -19,7 +19,7 @@ TriangleMesh box() {
 
 bool is_idle(const TriangleMesh& mesh, const DiskLight& light, const std::vector<glm::vec4>& receivers) {
   CasterPlanes planes(mesh, Vec3(0.0), 1.0);
-  planes.set_receivers(receivers);
+  planes.set_receivers(detail::ReceiverCloud(receivers));
   return planes.is_idle(light, 1e-6);
 }
 
