@@ -222,12 +222,10 @@ void DBufferShading::test_center_by_depth(const Programs& programs, const DBuffe
 /// Asks rays where entries contradict each other.
 void DBufferShading::check(const DiskLight& light, std::span<const std::uint32_t> doubtful,
                            std::vector<float>& visibility) {
-  std::vector<std::uint32_t> anyway = lonely_;
-  anyway.insert(anyway.end(), doubtful.begin(), doubtful.end());
   const auto ask = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
   };
-  sampled_ = steps_.ask({width_, height_, positions_, normals_, open_}, anyway, ask, visibility);
+  sampled_ = steps_.ask({width_, height_, positions_, normals_, open_}, lonely_, doubtful, ask, visibility);
 }
 
 /// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the

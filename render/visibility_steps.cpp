@@ -17,7 +17,7 @@ namespace {
 constexpr float kTurned = 0.9f;  // cosine between normals of what still counts as one surface
 constexpr float kFlat = 0.998f;  // the same for answers that are put together
 constexpr float kApart = 0.5f;   // height above the neighbour's plane over the distance
-constexpr float kDoubt = 1.8f;   // so many times the answers' noise is no longer explained by it
+constexpr float kDoubt = 2.0f;   // so many times the answers' noise is no longer explained by it
 constexpr float kBend = 0.3f;  // between answers on either side of a pixel, or at it, that no noise explains
 
 /// Without a branch in the loop, so that it vectorises.
@@ -82,7 +82,8 @@ void VisibilitySteps::begin() {
   });
 }
 
-std::vector<std::uint32_t> VisibilitySteps::find(std::span<const std::uint32_t> anyway) {
+std::vector<std::uint32_t> VisibilitySteps::find(std::span<const std::uint32_t> anyway,
+                                                 std::span<const std::uint32_t> suspects) {
   tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
   tbb::parallel_for(tbb::blocked_range<int>(0, image_.height, 16), [&](const auto& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) find_in_row(y, parts.local());
@@ -92,7 +93,9 @@ std::vector<std::uint32_t> VisibilitySteps::find(std::span<const std::uint32_t> 
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   for (const std::uint32_t i : out) known_[i] = kDoubtful;
-  for (const std::uint32_t i : sentinels()) {
+  std::vector<std::uint32_t> others = sentinels();
+  others.insert(others.end(), suspects.begin(), suspects.end());
+  for (const std::uint32_t i : others) {
     if (known_[i] != kNotAsked) continue;
     known_[i] = kSentinel;
     out.push_back(i);
@@ -168,8 +171,8 @@ std::vector<std::uint32_t> VisibilitySteps::take(std::span<const std::uint32_t> 
 VisibilitySteps::Mean VisibilitySteps::mean_answer(std::uint32_t i) const {
   const auto width = static_cast<std::uint32_t>(image_.width);
   if (i < width || i + width >= answer_.size() || i % width == 0 || i % width == width - 1)
-    return {answer_[i], 1};
-  float seen = answer_[i], open = image_.open[i];
+    return {answer_[i], visibility_of(i), 1};
+  float seen = answer_[i], open = image_.open[i], said = visibility_of(i);
   int answers = 1;
   for (const std::uint32_t d : {1u, width - 1, width, width + 1}) {
     if (answer_[i - d] == kNone || answer_[i + d] == kNone) continue;
@@ -178,13 +181,17 @@ VisibilitySteps::Mean VisibilitySteps::mean_answer(std::uint32_t i) const {
     if (std::abs(0.5f * (before + after) - answer_[i]) > kBend || std::abs(before - after) > kBend) continue;
     seen += answer_[i - d] + answer_[i + d];
     open += image_.open[i - d] + image_.open[i + d];
+    said += visibility_of(i - d) + visibility_of(i + d);
     answers += 2;
   }
-  return {open > 0.0f ? image_.open[i] * seen / open : 0.0f, answers};
+  const float scale = open > 0.0f ? image_.open[i] / open : 0.0f;
+  return {scale * seen, scale * said, answers};
 }
 
 float VisibilitySteps::difference(std::uint32_t i, const Mean& mean) const {
-  return std::abs(mean.visibility - visibility_[i]) / (kDoubt * noise_of_mean(mean.answers));
+  float most = std::abs(mean.visibility - visibility_of(i));
+  if (known_[i] == kSentinel) most = std::min(most, std::abs(mean.visibility - mean.by_entries));
+  return most / (kDoubt * noise_of_mean(mean.answers));
 }
 
 void VisibilitySteps::settle() {
@@ -215,11 +222,13 @@ std::vector<std::uint32_t> lonely_pixels(const ImageSurface& image) {
 }
 
 std::size_t VisibilitySteps::ask(const ImageSurface& image, std::span<const std::uint32_t> anyway,
-                                 const AskVisibility& ask, std::span<float> visibility) {
+                                 std::span<const std::uint32_t> suspects, const AskVisibility& ask,
+                                 std::span<float> visibility) {
   image_ = image;
   visibility_ = visibility;
   begin();
-  for (std::vector<std::uint32_t> pixels = find(anyway); !pixels.empty();) pixels = take(pixels, ask(pixels));
+  for (std::vector<std::uint32_t> pixels = find(anyway, suspects); !pixels.empty();)
+    pixels = take(pixels, ask(pixels));
   settle();
   return asked_.size();
 }

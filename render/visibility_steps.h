@@ -44,13 +44,16 @@ class VisibilitySteps {
   /// so that a slope does not shift it; where they differ by less, only in part, so that no edge shows.
   /// Returns how many pixels were asked, each once; all of them see a surface. Cost O(pixels) and the
   /// answers, on all cores.
-  std::size_t ask(const ImageSurface& image, std::span<const std::uint32_t> anyway, const AskVisibility& ask,
+  /// Those in `suspects` are asked as well, and believed no more than those at even distances.
+  std::size_t ask(const ImageSurface& image, std::span<const std::uint32_t> anyway,
+                  std::span<const std::uint32_t> suspects, const AskVisibility& ask,
                   std::span<float> visibility);
 
  private:
   void begin();
-  /// Those given, the pixels on either side of a step, and sentinels, in the image's order.
-  std::vector<std::uint32_t> find(std::span<const std::uint32_t> anyway);
+  /// Those given, pixels on either side of a step, and sentinels, in the image's order.
+  std::vector<std::uint32_t> find(std::span<const std::uint32_t> anyway,
+                                  std::span<const std::uint32_t> suspects);
   /// Where something hides the light every eighth pixel of every eighth row, elsewhere one in four of these.
   std::vector<std::uint32_t> sentinels() const;
   /// Both sides of the steps between a row's pixels and to the next row's.
@@ -66,9 +69,13 @@ class VisibilitySteps {
   /// above their horizon, and in opposite pairs, so that a slope does not shift it.
   struct Mean {
     float visibility;
+    float by_entries;  ///< the same mean of what the entries say: in a narrow penumbra not what they say in
+                       ///< its middle
     int answers;
   };
   Mean mean_answer(std::uint32_t i) const;
+  /// By the entries; stays while pixels are settled.
+  float visibility_of(std::uint32_t i) const { return share_[i] * image_.open[i]; }
   /// What is said of a pixel and around it against what the entries say, in units of what the answers' noise
   /// explains.
   float difference(std::uint32_t i, const Mean& mean) const;

@@ -73,7 +73,7 @@ TEST(EntryCheck, AHoleInAPenumbraIsFilledFromItsBorder) {
   Values v = oracle.truth;
   for (std::size_t y = 5; y < 15; ++y)
     for (std::size_t x = 6; x < 18; ++x) v[y * 24 + x] = 0.0f;
-  const std::size_t asked = detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v);
+  const std::size_t asked = detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v);
   for (std::size_t i = 0; i < v.size(); ++i)
     EXPECT_NEAR(v[i], oracle.truth[i], detail::kVisibilityStep) << "pixel " << i;
   EXPECT_EQ(asked, oracle.asked.size());
@@ -86,7 +86,7 @@ TEST(EntryCheck, AHoleInAPenumbraIsFilledFromItsBorder) {
 void expect_no_step(const Plane& plane, const Values& entries) {
   Oracle oracle{entries};
   Values v = entries;
-  detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v);
+  detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v);
   for (const std::uint32_t i : oracle.asked)
     EXPECT_TRUE(i % 24 % 8 == 4 && i / 24 % 8 == 4) << "pixel " << i << " is no sentinel";
   EXPECT_EQ(v, entries);
@@ -118,7 +118,7 @@ TEST(EntryCheck, AnswersThatAgreeChangeNothing) {
   Oracle oracle{edge};
   for (float& value : oracle.truth) value += 0.01f;
   Values v = edge;
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 2u * 20u + 4u)
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v), 2u * 20u + 4u)
       << "both sides of the step, and sentinels";
   EXPECT_EQ(v, edge);
 }
@@ -128,7 +128,7 @@ TEST(EntryCheck, EntriesThatAreWrongAllOverAreFound) {
   for (const float entry : {0.0f, 0.5f, 1.0f}) {
     Oracle oracle{Values(24 * 20, 0.75f)};
     Values v(24 * 20, entry);
-    EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), v.size());
+    EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v), v.size());
     for (std::size_t y = 1; y < 19; ++y)
       for (std::size_t x = 1; x < 23; ++x) EXPECT_FLOAT_EQ(v[y * 24 + x], 0.75f) << "from " << entry;
   }
@@ -139,7 +139,7 @@ TEST(EntryCheck, ASentinelThatErrsByItsNoiseChangesNothing) {
   Oracle oracle{Values(24 * 20, 0.5f)};
   oracle.truth[12 * 24 + 12] = 0.6f;
   Values v(24 * 20, 0.5f);
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v), 6u + 4u)
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v), 6u + 4u)
       << "all, and the neighbours of one";
   for (std::size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], 0.5f, 0.025f) << "pixel " << i;
 }
@@ -158,7 +158,7 @@ float worst_after_noisy_answers(const Plane& plane, const Values& truth) {
   for (std::size_t i = 0; i < truth.size(); ++i) oracle.truth[i] += noise_of(i % width, i / width);
   Values v(truth.size());
   for (std::size_t i = 0; i < v.size(); ++i) v[i] = i % width < width / 2 ? 0.2f : 0.8f;
-  detail::VisibilitySteps().ask(plane.image(), {}, oracle.ask(), v);
+  detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v);
   float worst = 0.0f;
   for (std::size_t y = 2; y + 2 < static_cast<std::size_t>(plane.height); ++y)
     for (std::size_t x = width / 2 - 4; x < width / 2 + 4; ++x)
@@ -194,7 +194,7 @@ TEST(EntryCheck, WhatNoNeighbourCanContradictIsAskedAnyway) {
   Oracle oracle{Values(24 * 20, 0.3f)};
   Values v(24 * 20, 0.3f);
   v[leaf] = 1.0f;
-  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), lonely, oracle.ask(), v), lonely.size() + 6u)
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), lonely, {}, oracle.ask(), v), lonely.size() + 6u)
       << "these, and sentinels";
   EXPECT_EQ(v, oracle.truth);
 }
