@@ -48,7 +48,7 @@ class DBufferShading {
   std::vector<float> shade(const DiskLight& light, const DBufferView& view,
                            const std::vector<glm::vec2>& tiles, const DBufferLayers& layers, GLuint records,
                            const DBufferOptions& options);
-  /// Pixels of the last image whose visibility was asked of rays, since entries contradicted each other.
+  /// Pixels of the last image whose visibility was asked of rays (EntryCheck::kRays).
   std::size_t sampled() const { return sampled_; }
 
  private:
