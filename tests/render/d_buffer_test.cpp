@@ -9,6 +9,7 @@
 #include "render/d_buffer_targets.h"
 #include "render/render.h"
 #include "render/shading.h"
+#include "render/silhouette.h"
 #include "tests/render/render_support.h"
 #include "volumes/volumes.h"
 
@@ -296,6 +297,24 @@ TEST(DBuffer, WideScenesUseAHemicubeThatAgreesWithOnePerspective) {
   // A box is exact but for corners whose texels are taken by the wrong edge.
   EXPECT_LE(rmse[0], 0.01);
   EXPECT_LE(rmse[1], 0.01);
+}
+
+// A post that ends just below the lamp hides the center from everywhere, and all entries are wrong alike:
+// nothing contradicts anything, so that only rays at even distances tell.
+TEST(DBuffer, APostBelowTheLampDoesNotDarkenTheFloor) {
+  const Scene scene = testing::scene_in_light_frame(0.5, {make_box({0, 0, 2.015}, {0.03, 0.03, 1.985})});
+  std::vector<Vec3> points;
+  for (int j = 0; j < 120; ++j)
+    for (int i = 0; i < 160; ++i) points.push_back({0.05 * i - 4.013, 0.05 * j - 3.017, 4.0});
+  const SurfaceBuffer surface = testing::receivers(points, Vec3(0, 0, -1), 160);
+  const RayScene rays(scene, 0);
+  const Values truth = silhouette_visibility(scene, rays, surface).visibility;
+  const Values v = draw(scene, surface).visibility;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < v.size(); ++i) squares += (v[i] - truth[i]) * (v[i] - truth[i]);
+  const double rmse = std::sqrt(squares / static_cast<double>(v.size()));
+  std::printf("a post below the lamp: RMSE %.4f\n", rmse);
+  EXPECT_LE(rmse, 0.03);
 }
 
 TEST(DBuffer, OneEdgeIsTheChordFormula) {
