@@ -302,7 +302,7 @@ TEST(DBuffer, WideScenesUseAHemicubeThatAgreesWithOnePerspective) {
 // A post that ends just below the lamp hides the center from everywhere, and all entries are wrong alike:
 // nothing contradicts anything, so that only rays at even distances tell.
 TEST(DBuffer, APostBelowTheLampDoesNotDarkenTheFloor) {
-  const Scene scene = testing::scene_in_light_frame(0.5, {make_box({0, 0, 2.015}, {0.03, 0.03, 1.985})});
+  const Scene scene = testing::scene_in_light_frame(0.5, {make_box({0, 0, 2.01}, {0.04, 0.04, 1.99})});
   std::vector<Vec3> points;
   for (int j = 0; j < 120; ++j)
     for (int i = 0; i < 160; ++i) points.push_back({0.05 * i - 4.013, 0.05 * j - 3.017, 4.0});
