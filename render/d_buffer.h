@@ -41,10 +41,10 @@ enum class CenterTest {
 };
 enum class EntryCheck {
   kRays,  ///< sixteen rays a pixel where neighbours on one surface contradict each other (a step of more than
-          ///< .07 that no slope explains), where an entry contradicts what is known of the light's center, and
-          ///< at even distances; they replace what entries say by more than their noise otherwise. Against
-          ///< leaks, penumbrae of edges that something else hides, seams between a texel's entries, and
-          ///< surfaces on which all entries are wrong.
+          ///< .07 that no slope explains), where an entry contradicts what is known of the light's center,
+          ///< and at even distances; they replace what entries say by more than their noise otherwise.
+          ///< Against leaks, penumbrae of edges that something else hides, seams between a texel's entries,
+          ///< and surfaces on which all entries are wrong.
   kNone,
 };
 enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps

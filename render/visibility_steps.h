@@ -5,8 +5,8 @@
 // where something touches it; so a step says where entries are wrong, and what rays say of its pixels is
 // carried on from neighbour to neighbour until it agrees with what entries say. Neighbours ask different
 // points of the light, so that the mean of their answers has little noise (interleaved sampling, A. Keller
-// and W. Heidrich 2001). Where all entries of a surface are wrong nothing contradicts them: so some pixels are
-// asked at even distances, and what they find is carried on in the same way.
+// and W. Heidrich 2001). Where all entries of a surface are wrong nothing contradicts them: so some pixels
+// are asked at even distances, and what they find is carried on in the same way.
 #pragma once
 
 #include <cstdint>
