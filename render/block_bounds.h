@@ -33,6 +33,23 @@ struct FloatBox {
   std::array<float, 3> middle{}, half{};
 };
 
+/// normal·p + offset, more than 0 outside, and how much it varies over half a box.
+struct FloatPlane {
+  FloatPlane() = default;
+  FloatPlane(const Vec3& n, double offset_less_margin) : offset(static_cast<float>(offset_less_margin)) {
+    for (int k = 0; k < 3; ++k) {
+      normal[k] = static_cast<float>(n[k]);
+      steep[k] = std::abs(normal[k]);
+    }
+  }
+  PENUMBRA_INLINE Ints has_outside(const Children& c) const {
+    const Floats at = normal[0] * c.middle[0] + normal[1] * c.middle[1] + normal[2] * c.middle[2];
+    return at + offset > steep[0] * c.half[0] + steep[1] * c.half[1] + steep[2] * c.half[2];
+  }
+  std::array<float, 3> normal, steep;
+  float offset;
+};
+
 /// All planes of a block have one sign for receivers in a box.
 PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers) {
   Floats value = c.value, reach = c.value_half;
@@ -45,9 +62,23 @@ PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers)
   return magnitude(value) > reach;
 }
 
+/// Blocks wholly below the tangent planes of receivers: normal·(p - middle of the receivers) < lowest for all
+/// normals of a box.
+PENUMBRA_INLINE Ints are_below(const Children& c, const FloatBox& receivers, const FloatBox& normals,
+                               float lowest) {
+  Floats highest{};
+  for (int k = 0; k < 3; ++k) {
+    const Floats d = c.middle[k] - receivers.middle[k];
+    highest += normals.middle[k] * d + normals.half[k] * magnitude(d) +
+               (std::abs(normals.middle[k]) + normals.half[k]) * c.half[k];
+  }
+  return highest < lowest;
+}
+
 /// Drops blocks for receivers in a box, by the sides of planes alone.
 class SidesTest {
  public:
+  explicit SidesTest(const FloatBox& receivers) : receivers_(receivers) {}
   SidesTest(const Vec3& middle, const Vec3& half) : receivers_(middle, half) {}
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
     return bits_of(are_one_sided(c, receivers_));

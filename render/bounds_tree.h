@@ -21,6 +21,14 @@ struct Siblings {
   std::uint32_t kept;
 };
 
+/// Calls visit(block) for every one.
+template <class List, class Visit>
+void for_each_block(const List& list, const Visit& visit) {
+  for (const Siblings& s : list)
+    for (std::uint32_t kept = s.kept; kept != 0; kept &= kept - 1)
+      visit(std::size_t{s.parent} * kFloatLanes + static_cast<std::size_t>(std::countr_zero(kept)));
+}
+
 /// How many blocks.
 std::size_t count_blocks(const std::vector<Siblings>& list);
 

@@ -82,16 +82,24 @@ RayScene::Impl::~Impl() {
   rtcReleaseDevice(device);
 }
 
-const detail::SceneEdges& RayScene::Impl::edges() const {
-  std::call_once(edges_once_, [&] {
+/// Made once, on the cores of the arena.
+template <class T>
+const T& RayScene::Impl::once(OnDemand<T>& of) const {
+  std::call_once(of.once, [&] {
     const auto start = std::chrono::steady_clock::now();
-    const auto make = [&] {
-      edges_ = std::make_unique<detail::SceneEdges>(scene_, frame_.origin, frame_.scale);
-    };
-    arena.execute([&] { tbb::this_task_arena::isolate(make); });  // takes no work that may ask for edges
-    edges_ms_ = milliseconds_since(start);
+    const auto make = [&] { of.made = std::make_unique<T>(scene_, frame_.origin, frame_.scale); };
+    arena.execute([&] { tbb::this_task_arena::isolate(make); });  // takes no work that may ask for the same
+    of.milliseconds = milliseconds_since(start);
   });
-  return *edges_;
+  return *of.made;
+}
+
+const detail::SceneEdges& RayScene::Impl::edges() const {
+  return once(edges_);
+}
+
+const detail::MergedEdges& RayScene::Impl::merged_edges() const {
+  return once(merged_edges_);
 }
 
 RayScene::RayScene(const Scene& scene, int threads) : frame_(ray_frame(scene)) {

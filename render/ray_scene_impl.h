@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "mesh/error.h"
+#include "render/merged_edges.h"
 #include "render/ray_scene.h"
 #include "render/scene_edges.h"
 
@@ -29,16 +30,26 @@ struct RayScene::Impl {
   RTCScene casters = nullptr;  ///< what hides the light
   mutable tbb::task_arena arena;
 
-  /// Made when it is first asked for.
+  /// Both made when they are first asked for.
   const detail::SceneEdges& edges() const;
-  double edges_ms() const { return edges_ms_; }
+  const detail::MergedEdges& merged_edges() const;
+  /// What making them took, so far.
+  double edges_ms() const { return edges_.milliseconds + merged_edges_.milliseconds; }
 
  private:
+  template <class T>
+  struct OnDemand {
+    std::once_flag once;
+    std::unique_ptr<T> made;
+    double milliseconds = 0.0;
+  };
+  template <class T>
+  const T& once(OnDemand<T>& of) const;
+
   Scene scene_;  ///< meshes are shared with the caller's
   RayFrame frame_;
-  mutable std::once_flag edges_once_;
-  mutable std::unique_ptr<detail::SceneEdges> edges_;
-  mutable double edges_ms_ = 0.0;
+  mutable OnDemand<detail::SceneEdges> edges_;
+  mutable OnDemand<detail::MergedEdges> merged_edges_;
 };
 
 }  // namespace penumbra

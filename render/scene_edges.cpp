@@ -1,15 +1,16 @@
 #include "render/scene_edges.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "render/kd_order.h"
 #include "volumes/detail/vectors.h"
 
 namespace penumbra::detail {
@@ -18,7 +19,7 @@ namespace {
 constexpr std::size_t kLanes = kFloatLanes;
 
 struct Placed {
-  glm::vec3 middle;
+  std::array<float, 3> at;  ///< its middle
   SceneEdge edge;
 };
 
@@ -32,61 +33,33 @@ LargeArray<Placed> edges_of(const Scene& scene) {
     const SceneObject& o = scene.objects[object];
     for (std::uint32_t i = 0; o.casts && i < o.mesh.edges().size(); ++i, ++at) {
       const Edge& e = o.mesh.edges()[i];
-      out[at].middle = glm::vec3(0.5 * o.mesh.position(e.from) + 0.5 * o.mesh.position(e.to));
+      const glm::vec3 middle(0.5 * o.mesh.position(e.from) + 0.5 * o.mesh.position(e.to));
+      out[at].at = {middle.x, middle.y, middle.z};
       out[at].edge = {object, EdgeId{i}};
     }
   }
   return out;
 }
 
-/// Puts what lies close together next to each other: halves across the longest side, down to blocks. As many
-/// blocks go to the first half as the greatest power of two says, so that eight in a row are one part.
-void divide(Placed* first, Placed* last) {
-  const auto blocks = (static_cast<std::size_t>(last - first) + kLanes - 1) / kLanes;
-  if (blocks < 2) return;
-  glm::vec3 low = first->middle, high = low;
-  for (const Placed* p = first; p != last; ++p) {
-    low = glm::min(low, p->middle);
-    high = glm::max(high, p->middle);
-  }
-  const glm::vec3 size = high - low;
-  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  Placed* middle = first + std::bit_floor(blocks - 1) * kLanes;
-  std::nth_element(first, middle, last,
-                   [axis](const Placed& p, const Placed& q) { return p.middle[axis] < q.middle[axis]; });
-  constexpr std::size_t kBlocksPerTask = 64;
-  if (blocks < kBlocksPerTask) {
-    divide(first, middle);
-    divide(middle, last);
-  } else {
-    tbb::parallel_invoke([=] { divide(first, middle); }, [=] { divide(middle, last); });
-  }
-}
-
 LargeArray<SceneEdge> neighbours_together(LargeArray<Placed> edges) {
-  divide(edges.data(), edges.data() + edges.size());
+  order_by_place(edges.data(), edges.data() + edges.size(), kLanes);
   LargeArray<SceneEdge> out(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) out[i] = edges[i].edge;
   return out;
 }
 
-/// The light in float, in the frame of the edges.
-struct FloatDisk {
-  std::array<float, 3> center, normal;
-  float radius2, margin;
-};
-
 /// 1 or -1 where all of the disk is in front of a plane or behind it, 0 where that is not certain: a plane
 /// with unit normal n is at most radius · √(1 - (n·normal)²) farther from some point than from the center.
 PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, Ints& out) {
-  const auto& [c, m, radius2, margin] = disk;
+  const auto& c = disk.box.middle;
+  const auto& m = disk.normal;
   const Floats value = plane.x * c[0] + plane.y * c[1] + plane.z * c[2] + plane.offset;
   const Floats along = plane.x * m[0] + plane.y * m[1] + plane.z * m[2];
   const Floats steep2 = 1.0f - along * along;
   const Floats none{};
   const Floats rise2 = (steep2 > 0.0f ? steep2 : none) + 0x1p-20f;
-  const Floats beyond = magnitude(value) - plane.tolerance - margin;
-  const Ints clear = (beyond > 0.0f) & (beyond * beyond > 1.0001f * radius2 * rise2);
+  const Floats beyond = magnitude(value) - plane.tolerance - disk.margin;
+  const Ints clear = (beyond > 0.0f) & (beyond * beyond > 1.0001f * disk.radius2 * rise2);
   out = clear & ((value < 0.0f) - (value > 0.0f));
 }
 
@@ -97,6 +70,11 @@ std::uint32_t may_be_in_band(const EdgePlanes& planes, const FloatDisk& disk) {
   sides_over(planes.left, disk, left);
   sides_over(planes.right, disk, right);
   return bits_of(~((left == right) & (left != 0)));
+}
+
+PENUMBRA_VECTOR_CLONES
+std::uint32_t edges_to_look_at(const EdgePlanes& planes, const FloatBox& receivers) {
+  return may_be_silhouettes(planes, receivers);
 }
 
 }  // namespace
@@ -130,31 +108,93 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
   tree_ = BoundsTree(std::move(bounds), 1.0);
 }
 
-std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<const char> idle) const {
+FloatDisk SceneEdges::disk_of(const DiskLight& light) const {
   const Vec3 center = (light.center - origin_) * scale_, normal = unit(light.normal);
   const double radius = light.radius * scale_;
   // The light may lie farther out than it did when the frame was made.
   const double extent = std::max(1.0, largest_component(center) + radius);
   const Vec3 half = radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - normal * normal));
-  const FloatDisk disk{FloatBox(center, half).middle, FloatBox(normal, half).middle,
-                       static_cast<float>(radius * radius), static_cast<float>(0x1p-18 * extent)};
+  return {FloatBox(center, half + kBoundsGrain * extent), FloatBox(normal, half).middle,
+          static_cast<float>(radius * radius), static_cast<float>(0x1p-18 * extent)};
+}
+
+void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
+                           std::vector<SceneEdge>& out) const {
+  for (; edges != 0; edges &= edges - 1) {
+    const SceneEdge& e = edges_[block * kLanes + static_cast<std::size_t>(std::countr_zero(edges))];
+    if (idle.empty() || !idle[e.object]) out.push_back(e);
+  }
+}
+
+std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<const char> idle) const {
+  const FloatDisk disk = disk_of(light);
   std::vector<Siblings> parents;
-  tree_.gather(SidesTest(center, half + kBoundsGrain * extent), parents);
+  tree_.gather(SidesTest(disk.box), parents);
   constexpr std::size_t kRun = 256;
   std::vector<std::vector<SceneEdge>> runs((parents.size() + kRun - 1) / kRun);
-  const auto add_block = [&](std::size_t block, std::vector<SceneEdge>& out) {
-    for (std::uint32_t bits = may_be_in_band(planes_[block], disk); bits != 0; bits &= bits - 1) {
-      const SceneEdge& e = edges_[block * kLanes + static_cast<std::size_t>(std::countr_zero(bits))];
-      if (idle.empty() || !idle[e.object]) out.push_back(e);
-    }
-  };
   tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t run) {
-    for (std::size_t i = run * kRun; i < std::min(parents.size(), (run + 1) * kRun); ++i)
-      for (std::uint32_t bits = parents[i].kept; bits != 0; bits &= bits - 1)
-        add_block(parents[i].parent * kLanes + static_cast<std::size_t>(std::countr_zero(bits)), runs[run]);
+    const std::size_t first = run * kRun, count = std::min(kRun, parents.size() - first);
+    for_each_block(std::span(parents).subspan(first, count), [&](std::size_t block) {
+      add_block(block, may_be_in_band(planes_[block], disk), idle, runs[run]);
+    });
   });
   std::vector<SceneEdge> out;
   for (const auto& run : runs) out.insert(out.end(), run.begin(), run.end());
+  return out;
+}
+
+/// What a region's receivers have to look at. Which edges have their faces on both sides of a receiver is
+/// asked in float; whether they lie below its tangent plane is not, since receivers lie so little above their
+/// surfaces. Ends of edges lie anywhere in memory: they are sent for before they are needed.
+void SceneEdges::mark_needed(const Region& region, const Scene& scene,
+                             std::vector<std::atomic<std::uint8_t>>& needed) const {
+  struct Question {
+    std::size_t block, receiver;
+    std::uint32_t lanes;
+  };
+  std::vector<Siblings> parents;
+  tree_.gather(region, parents);
+  std::vector<Question> questions;
+  for (std::size_t r = 0; r < region.receivers().size(); ++r)
+    for (const Siblings& s : parents)
+      for_each_block(std::array{Siblings{s.parent, kept_by(region.receivers()[r], tree_.blocks(), s)}},
+                     [&](std::size_t block) {
+                       const std::uint32_t lanes =
+                           edges_to_look_at(planes_[block], region.receivers()[r].box());
+                       if (lanes != 0) questions.push_back({block, r, lanes});
+                     });
+  const auto for_each_edge = [&](const auto& visit) {
+    for (const Question& q : questions)
+      for (std::uint32_t lanes = q.lanes; lanes != 0; lanes &= lanes - 1) {
+        const SceneEdge& e = edges_[q.block * kLanes + static_cast<std::size_t>(std::countr_zero(lanes))];
+        visit(q, lanes & -lanes, scene.objects[e.object].mesh, e.id);
+      }
+  };
+  for_each_edge([](const Question&, std::uint32_t, const TriangleMesh& mesh, EdgeId id) {
+    __builtin_prefetch(&mesh.edges()[index(id)]);
+  });
+  for_each_edge([](const Question&, std::uint32_t, const TriangleMesh& mesh, EdgeId id) {
+    const Edge& e = mesh.edges()[index(id)];
+    __builtin_prefetch(&mesh.positions()[index(e.from)]);
+    __builtin_prefetch(&mesh.positions()[index(e.to)]);
+  });
+  for_each_edge([&](const Question& q, std::uint32_t lane, const TriangleMesh& mesh, EdgeId id) {
+    const Edge& e = mesh.edges()[index(id)];
+    const Region::Point& r = region.receivers()[q.receiver];
+    const auto is_below = [&](VertexId v) { return r.is_below((mesh.position(v) - origin_) * scale_); };
+    if (!is_below(e.from) || !is_below(e.to)) needed[q.block] |= static_cast<std::uint8_t>(lane);
+  });
+}
+
+std::vector<SceneEdge> SceneEdges::band_for(std::span<const Region> regions, const Scene& scene,
+                                            const DiskLight& light, std::span<const char> idle) const {
+  std::vector<std::atomic<std::uint8_t>> needed(planes_.size());
+  tbb::parallel_for(std::size_t{0}, regions.size(),
+                    [&](std::size_t i) { mark_needed(regions[i], scene, needed); });
+  const FloatDisk disk = disk_of(light);
+  std::vector<SceneEdge> out;
+  for (std::size_t block = 0; block < needed.size(); ++block)
+    if (needed[block] != 0) add_block(block, needed[block] & may_be_in_band(planes_[block], disk), idle, out);
   return out;
 }
 

@@ -10,6 +10,8 @@
 // has do no harm, since what an edge does to a receiver is decided for that receiver.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "render/bounds_tree.h"
 #include "render/large_array.h"
 #include "render/plane_lanes.h"
+#include "render/region.h"
 #include "render/scene.h"
 
 namespace penumbra::detail {
@@ -24,6 +27,13 @@ namespace penumbra::detail {
 struct SceneEdge {
   std::uint32_t object;  ///< index in the scene
   EdgeId id;             ///< of its mesh
+};
+
+/// A light in float, in the frame of the edges.
+struct FloatDisk {
+  FloatBox box;
+  std::array<float, 3> normal;
+  float radius2, margin;
 };
 
 class SceneEdges {
@@ -34,11 +44,21 @@ class SceneEdges {
   /// Those of the light's band, neighbours close together, but for objects whose flag in `idle` (one an
   /// object, or none) is set. Cost O(band + √E), on all cores.
   std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> idle) const;
+  /// Of these what may matter to the receivers of some regions. Cost: some 20 μs a region.
+  std::vector<SceneEdge> band_for(std::span<const Region> regions, const Scene& scene, const DiskLight& light,
+                                  std::span<const char> idle) const;
   std::size_t size() const { return edges_.size(); }
   double scale() const { return scale_; }
   std::size_t bytes() const;
 
  private:
+  void mark_needed(const Region& region, const Scene& scene,
+                   std::vector<std::atomic<std::uint8_t>>& needed) const;
+  FloatDisk disk_of(const DiskLight& light) const;
+  /// Some edges of a block, bit by bit, but for those of idle objects.
+  void add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
+                 std::vector<SceneEdge>& out) const;
+
   Vec3 origin_;
   double scale_;
   LargeArray<SceneEdge> edges_;

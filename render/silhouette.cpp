@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <glm/geometric.hpp>
+#include <memory>
 #include <mutex>
 #include <numbers>
+#include <ranges>
 
 #include "mesh/error.h"
 #include "render/idle_casters.h"
@@ -33,13 +36,15 @@ constexpr std::size_t kMostToCertify = 8192;  // edges; with more, rays cost les
                                               // hardly ever found there
 constexpr std::size_t kManyBlocks = 64;  // lists of more may be narrowed down to receivers block by block,
 constexpr double kMostKept = 0.4;        // if one receiver keeps at most that share
+constexpr double kSliver = 0.5;          // of the disk, for how far silhouettes are moved
 constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
 
 /// What one thread keeps between tiles, and what it has counted.
 struct Workspace {
-  std::vector<Receiver> receivers;
-  std::vector<Fused> fused;   ///< one a receiver
-  std::vector<char> certain;  ///< one a receiver
+  std::vector<Receiver> tile;       ///< all of a tile
+  std::vector<Receiver> receivers;  ///< of it, those at hand
+  std::vector<Fused> fused;         ///< one a receiver
+  std::vector<char> certain;        ///< one a receiver
   std::vector<std::uint32_t> edges;
   std::array<std::vector<Siblings>, 3> blocks;  ///< of the tile, and of its parts
   EdgeList list, part_list;                     ///< of the tile, and of the part at hand
@@ -47,6 +52,9 @@ struct Workspace {
   Cut cut;
   Fuser fuser;
   std::vector<RayTask> tasks, second_tasks;
+  std::vector<std::uint32_t> undecided;  ///< pixels of the tile
+  double sliver = 0.0;                   ///< of the receivers at hand, see Fuser::fuse
+  std::uint32_t later = 0;               ///< passes that some of the tile's receivers are left to, as bits
   std::vector<std::uint32_t> fallback, open;
   SilhouetteCounts counts;
 
@@ -70,28 +78,66 @@ void add_task(std::vector<RayTask>& tasks, std::uint32_t pixel, const glm::dvec2
   task.receiver = receiver;
 }
 
+/// Which edges each pixel's receiver looks at: those of merged faces first, coarsest levels first, and those
+/// of all faces last.
+struct Passes {
+  std::vector<const MergedLevel*> levels;
+  std::vector<double> moved;     ///< of the levels; light radii
+  std::vector<std::uint8_t> of;  ///< pixels that are not done: their pass
+  int now = 0;
+
+  int last() const { return static_cast<int>(levels.size()); }
+  /// The next one whose edges are hardly anywhere moved farther than that.
+  int next(double allowed) const {
+    constexpr double kSpread = 1.5;
+    int pass = now + 1;
+    while (pass < last() && moved[pass] * kSpread > allowed) ++pass;
+    return pass;
+  }
+};
+
 /// One frame: everything that tiles share, and the result they write to (each its own pixels).
 class Evaluation {
  public:
-  Evaluation(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, const Band& band,
-             const BandTree& tree, const EdgeBlocks& blocks, const UnitLight& light,
-             const SilhouetteOptions& options, SilhouetteResult& out)
+  Evaluation(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, Band band,
+             const UnitLight& light, const SilhouetteOptions& options, Passes& passes, SilhouetteResult& out)
       : scene_(scene),
         rays_(rays),
         surface_(surface),
-        band_(band),
-        tree_(tree),
-        blocks_(blocks),
+        band_(std::move(band)),
+        tree_(band_),
+        blocks_(band_),
         light_(light),
         options_(options),
         source_(scene, rays.frame(), surface, light, out),
-        slack_(certificate_slack(band.extent)),
+        slack_(certificate_slack(band_.extent)),
+        passes_(passes),
         out_(out) {}
 
-  void tile(int column, int row, Workspace& w) const;
+  /// Looks at the tile's receivers whose turn it is. Returns the passes that those are left to for which the
+  /// band's edges are moved too far, as bits.
+  std::uint32_t tile(int column, int row, Workspace& w) const;
+  /// What is known of the band.
+  void add_counts(SilhouetteCounts& out) const {
+    out.faces = band_.faces;
+    out.mesh_edges = band_.mesh_edges;
+    out.band_edges += band_.edges.size();
+    out.cut_edges = band_.cut_edges;
+    out.bytes += band_.edges.size() * sizeof(BandEdge) + tree_.bytes() + blocks_.bytes();
+  }
 
  private:
+  void part(std::span<Receiver> receivers, Workspace& w) const;
+  void leave(std::span<Receiver> receivers, int pass, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
+  /// In the light's plane and light radii: how far silhouettes of merged faces in a list of blocks are moved
+  /// at most for any of the receivers. In light radii: how far they might be moved (`MergedEdge::moved`).
+  struct Moves {
+    double most = 0.0, allowed = std::numeric_limits<double>::infinity();
+  };
+  Moves moves(const Shaft& shaft, const std::vector<Siblings>& list) const;
+  void look_around(const Shaft& shaft, Workspace& w) const;
+  bool is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const;
   bool are_blocks_better(Workspace& w) const;
   void divide(std::size_t first, std::size_t last, Workspace& w) const;
   void divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const;
@@ -106,32 +152,88 @@ class Evaluation {
   const Scene& scene_;
   const RayScene& rays_;
   const SurfaceBuffer& surface_;
-  const Band& band_;
-  const BandTree& tree_;
-  const EdgeBlocks& blocks_;
+  const Band band_;
+  const BandTree tree_;
+  const EdgeBlocks blocks_;
   const UnitLight& light_;
   const SilhouetteOptions& options_;
   const ReceiverSource source_;
   const double slack_;
+  Passes& passes_;
   SilhouetteResult& out_;
 };
 
-void Evaluation::tile(int column, int row, Workspace& w) const {
-  auto& unknown = options_.integrate ? w.fallback : w.open;
-  w.counts.behind_light += source_.collect(column, row, w.receivers, unknown);
-  if (w.receivers.empty()) return;
-  ++w.counts.tiles;
-  w.counts.receivers += w.receivers.size();
-  Shaft shaft(w.receivers, band_.extent);
-  if (!is_reached(shaft)) {
-    ++w.counts.empty_tiles;
-    return light_up(w);
+std::uint32_t Evaluation::tile(int column, int row, Workspace& w) const {
+  w.undecided.clear();
+  const std::size_t behind = source_.collect(column, row, w.tile, w.undecided);
+  if (passes_.now > 0) {
+    std::erase_if(w.tile, [&](const Receiver& r) { return passes_.of[r.pixel] != passes_.now; });
+  } else {
+    w.counts.receivers += w.tile.size();
+    w.counts.behind_light += behind;
+    auto& unknown = options_.integrate ? w.fallback : w.open;
+    unknown.insert(unknown.end(), w.undecided.begin(), w.undecided.end());
   }
+  w.later = 0;
+  if (!w.tile.empty()) part(w.tile, w);
+  return w.later;
+}
+
+/// Receivers that lie close together.
+void Evaluation::part(std::span<Receiver> receivers, Workspace& w) const {
+  Shaft shaft(receivers, band_.extent);
   w.blocks[0].clear();
-  if (!tree_.misses(shaft)) {
-    if (band_.edges.size() > kShortList) shaft.tighten(w.receivers);  // costs more than few edges
+  const bool reached = is_reached(shaft);
+  if (reached && !tree_.misses(shaft)) {
+    if (band_.edges.size() > kShortList) shaft.tighten(receivers);  // costs more than few edges
     tree_.gather(shaft, w.blocks[0]);
+    const Moves m = moves(shaft, w.blocks[0]);
+    if (m.most > options_.moved) return leave(receivers, passes_.next(m.allowed), w);
+    w.sliver = kSliver * m.most;
   }
+  ++w.counts.tiles;
+  w.counts.merged_receivers += band_.is_merged() ? receivers.size() : 0;
+  w.receivers.assign(receivers.begin(), receivers.end());
+  if (reached) {
+    look_around(shaft, w);
+  } else {
+    ++w.counts.empty_tiles;
+    light_up(w);
+  }
+}
+
+/// To a later pass. Where no merged edges will do, halves are tried: a tile may show two surfaces, one of
+/// which is near to what casts.
+void Evaluation::leave(std::span<Receiver> receivers, int pass, Workspace& w) const {
+  if (pass == passes_.last() && receivers.size() > kFewReceivers) {
+    const std::size_t middle = halve(receivers);
+    part(receivers.first(middle), w);
+    return part(receivers.subspan(middle), w);
+  }
+  for (const Receiver& r : receivers) passes_.of[r.pixel] = static_cast<std::uint8_t>(pass);
+  w.later |= 1u << pass;
+}
+
+/// What lies at p is seen by x magnified by x.z/(x.z - p.z) and, at a slant, by |x - p|/(x.z - p.z) once
+/// more; p in a block's box, x in that of the receivers.
+Evaluation::Moves Evaluation::moves(const Shaft& shaft, const std::vector<Siblings>& list) const {
+  const Vec3 middle = shaft.middle();
+  const double lowest = middle.z - shaft.half().z, highest = middle.z + shaft.half().z;
+  Moves out;
+  for_each_block(list, [&](std::size_t block) {
+    if (block >= band_.moved.size() || !(band_.moved[block] > 0.0f)) return;
+    const BlockBounds& b = band_.bounds[block];
+    const double below = std::max(0.0, lowest - b.high.z);
+    const double away =
+        glm::distance(middle, 0.5 * (b.low + b.high)) + glm::length(shaft.half() + 0.5 * (b.high - b.low));
+    const double magnified = away * highest / (below * below);
+    out.most = std::max(out.most, band_.moved[block] * magnified);
+    out.allowed = std::min(out.allowed, options_.moved / magnified);
+  });
+  return out;
+}
+
+void Evaluation::look_around(const Shaft& shaft, Workspace& w) const {
   w.fused.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
   w.tasks.clear();
@@ -207,7 +309,7 @@ void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) co
     w.fallback.push_back(w.receivers[i].pixel);
     return;
   }
-  w.fuser.fuse(w.cut, part, options_.rows, w.fused[i]);
+  w.fuser.fuse(w.cut, part, options_.rows, w.sliver, w.fused[i]);
   add_task(w.tasks, w.receivers[i].pixel, w.fused[i].aims[0], false, i);
   w.counts.segments += w.cut.segments.size();
   ++w.counts.integrated;
@@ -233,12 +335,19 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& lis
   judge(i, w);
 }
 
+/// Nothing is across the disk for certain. Below a horizon that cuts the disk edges may have been left out:
+/// nothing is certified there. Of merged faces some may look the other way than their patch does.
+bool Evaluation::is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const {
+  if (!w.sight.certain || part.is_cut()) return false;
+  return !band_.is_merged() ||
+         blocks_.is_certainly_none(tree_, w.blocks[0], w.receivers[i], slack_, w.sight.sifted);
+}
+
 /// What a receiver sees, integrated; or the certificate.
 void Evaluation::judge(std::size_t i, Workspace& w) const {
   const Receiver& r = w.receivers[i];
   const DiskPart part(r.horizon);
-  // Below a horizon that cuts the disk edges may have been left out: nothing is certified there.
-  w.certain[i] = w.sight.certain && !part.is_cut();
+  w.certain[i] = is_beyond_doubt(i, part, w);
   if (w.sight.segments.empty()) {
     const glm::dvec2 middle = part.middle();
     Fused& fused = w.fused[i];
@@ -299,37 +408,104 @@ void Evaluation::decide(Workspace& w) const {
 
 SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
   for (const auto member :
-       {&SilhouetteCounts::receivers, &SilhouetteCounts::certified_lit, &SilhouetteCounts::certified_umbra,
-        &SilhouetteCounts::behind_light, &SilhouetteCounts::tiles, &SilhouetteCounts::empty_tiles,
-        &SilhouetteCounts::listed_edges, &SilhouetteCounts::projected_edges, &SilhouetteCounts::segments,
-        &SilhouetteCounts::integrated, &SilhouetteCounts::slabs, &SilhouetteCounts::fused,
-        &SilhouetteCounts::overlapping, &SilhouetteCounts::rays, &SilhouetteCounts::second_rays})
+       {&SilhouetteCounts::receivers, &SilhouetteCounts::merged_receivers, &SilhouetteCounts::certified_lit,
+        &SilhouetteCounts::certified_umbra, &SilhouetteCounts::behind_light, &SilhouetteCounts::tiles,
+        &SilhouetteCounts::empty_tiles, &SilhouetteCounts::listed_edges, &SilhouetteCounts::projected_edges,
+        &SilhouetteCounts::segments, &SilhouetteCounts::integrated, &SilhouetteCounts::slabs,
+        &SilhouetteCounts::fused, &SilhouetteCounts::overlapping, &SilhouetteCounts::rays,
+        &SilhouetteCounts::second_rays})
     a.*member += b.*member;
   return a;
 }
 
-/// Runs `body(column, row, workspace)` for every tile, reporting progress.
-template <class Spaces, class Body>
-void for_each_tile(const RayScene& rays, const SurfaceBuffer& surface, Spaces& spaces,
-                   const Progress& progress, const Body& body) {
-  const int columns = (surface.width + kTile - 1) / kTile, rows = (surface.height + kTile - 1) / kTile;
-  std::atomic<int> done{0};
-  std::atomic<bool> stop{false};
-  std::mutex reporting;
-  rays.impl().arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, columns * rows, 1),
-                      [&](const tbb::blocked_range<int>& range) {
-                        if (stop) return;
-                        Workspace& w = spaces.local();
-                        for (int i = range.begin(); i < range.end(); ++i) body(i % columns, i / columns, w);
-                        const int finished = done += static_cast<int>(range.size());
-                        if (progress && reporting.try_lock()) {
-                          if (!progress(static_cast<double>(finished) / (columns * rows))) stop = true;
-                          reporting.unlock();
-                        }
-                      });
-  });
-  if (stop) throw Cancelled();
+/// The tiles of an image, and for which passes they wait.
+class Tiles {
+ public:
+  Tiles(const SurfaceBuffer& surface, const Progress& progress)
+      : columns_((surface.width + kTile - 1) / kTile),
+        waiting_(static_cast<std::size_t>(columns_ * ((surface.height + kTile - 1) / kTile)), 1u),
+        progress_(progress) {}
+
+  /// Tiles that wait for a pass; so few that it is cheaper to look for the edges that matter to them than for
+  /// all.
+  std::vector<int> waiting_for(int pass) const {
+    std::vector<int> out;
+    for (std::size_t i = 0; i < waiting_.size(); ++i)
+      if (waiting_[i] >> pass & 1) out.push_back(static_cast<int>(i));
+    return out;
+  }
+  bool are_few(const std::vector<int>& tiles) const { return tiles.size() <= waiting_.size() / kFewTiles; }
+  int column(int tile) const { return tile % columns_; }
+  int row(int tile) const { return tile / columns_; }
+
+  /// Runs `body(column, row, workspace)` for some tiles of a pass, reporting progress; it returns for which
+  /// passes they wait next. Throws Cancelled.
+  template <class Spaces, class Body>
+  void run(int pass, const std::vector<int>& tiles, const RayScene& rays, Spaces& spaces, const Body& body) {
+    std::atomic<bool> stop{false};
+    std::mutex reporting;
+    const auto finish = [&](std::uint32_t& waiting, std::uint32_t next) {
+      waiting = (waiting & ~(1u << pass)) | next;
+      if (waiting != 0) return;
+      const std::size_t finished = ++done_;
+      if (!progress_ || !reporting.try_lock()) return;
+      if (!progress_(static_cast<double>(finished) / static_cast<double>(waiting_.size()))) stop = true;
+      reporting.unlock();
+    };
+    rays.impl().arena.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end() && !stop; ++i)
+          finish(waiting_[static_cast<std::size_t>(tiles[i])],
+                 body(column(tiles[i]), row(tiles[i]), spaces.local()));
+      });
+    });
+    if (stop) throw Cancelled();
+  }
+
+ private:
+  static constexpr std::size_t kFewTiles = 32;  // one in so many
+  int columns_;
+  std::vector<std::uint32_t> waiting_;  ///< passes as bits
+  const Progress& progress_;
+  std::atomic<std::size_t> done_{0};
+};
+
+/// Of the receivers of some tiles that wait for this pass, by parts that lie close together.
+std::vector<Region> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
+                               const ReceiverSource& source, const UnitLight& light, const RayFrame& frame) {
+  std::vector<Region> out;
+  std::vector<Receiver> receivers;
+  std::vector<std::uint32_t> undecided;
+  const auto add = [&](const auto& self, std::span<Receiver> part) -> void {
+    if (part.size() > kFewReceivers) {
+      const std::size_t middle = halve(part);
+      self(self, part.first(middle));
+      return self(self, part.subspan(middle));
+    }
+    Shaft shaft(part, 1.0);
+    shaft.tighten(part);
+    out.push_back(shaft.region(part, light, frame));
+  };
+  for (const int tile : some) {
+    source.collect(tiles.column(tile), tiles.row(tile), receivers, undecided);
+    std::erase_if(receivers, [&](const Receiver& r) { return passes.of[r.pixel] != passes.now; });
+    if (!receivers.empty()) add(add, receivers);
+  }
+  return out;
+}
+
+/// None but the last, where nothing is to be merged or a caster crosses the light's plane.
+Passes make_passes(const LitScene& lit, const MergedEdges* merged, double moved, std::size_t pixels) {
+  Passes out;
+  if (!merged || !lit.all_in_front) return out;
+  for (const MergedLevel& level : merged->levels() | std::views::reverse) {
+    const double in_radii = level.moved * lit.light.per_radius();
+    if (in_radii > moved) continue;
+    out.levels.push_back(&level);
+    out.moved.push_back(in_radii);
+  }
+  if (!out.levels.empty()) out.of.resize(pixels);
+  return out;
 }
 
 void trace_fallback(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
@@ -357,24 +533,42 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   SilhouetteResult out;
   out.visibility.assign(surface.size(), 1.0f);
   out.region.assign(surface.size(), -1);
+  const bool may_merge = options.integrate && options.moved > 0.0;
+  const MergedEdges* merged = may_merge ? &rays.impl().merged_edges() : nullptr;
   const SceneEdges& edges = rays.impl().edges();
   StageClock clock;
   const UnitLight light(scene.light);
-  Band band;
-  rays.impl().arena.execute([&] {
-    const std::vector<char> idle = find_idle_casters(scene, rays.frame(), surface);
-    out.counts.idle_casters = static_cast<std::size_t>(std::count(idle.begin(), idle.end(), char{1}));
-    band = make_band(scene, light, edges, idle);
-  });
-  clock.finish("band");
-  const BandTree tree = rays.impl().arena.execute([&] { return BandTree(band); });
-  const EdgeBlocks blocks = rays.impl().arena.execute([&] { return EdgeBlocks(band); });
-  clock.finish("band_tree");
+  const auto in_arena = [&](const auto& make) { return rays.impl().arena.execute(make); };
+  const std::vector<char> idle = in_arena([&] { return find_idle_casters(scene, rays.frame(), surface); });
+  out.counts.idle_casters = static_cast<std::size_t>(std::count(idle.begin(), idle.end(), char{1}));
+  const LitScene lit = in_arena([&] { return LitScene(scene, light, rays.frame().scale, idle); });
 
+  Passes passes = make_passes(lit, merged, options.moved, surface.size());
+  Tiles tiles(surface, progress);
+  const auto band_of = [&](const std::vector<int>& some) {
+    if (passes.now < passes.last()) return make_merged_band(lit, *merged, *passes.levels[passes.now]);
+    std::vector<Region> regions;
+    if (passes.now > 0 && tiles.are_few(some))
+      regions = regions_of(tiles, some, passes, ReceiverSource(scene, rays.frame(), surface, light, out),
+                           light, rays.frame());
+    return make_band(lit, edges, regions);
+  };
   tbb::enumerable_thread_specific<Workspace> spaces;
-  const Evaluation evaluation(scene, rays, surface, band, tree, blocks, light, options, out);
-  for_each_tile(rays, surface, spaces, progress,
-                [&](int column, int row, Workspace& w) { evaluation.tile(column, row, w); });
+  for (; passes.now <= passes.last(); ++passes.now) {
+    const std::vector<int> some = tiles.waiting_for(passes.now);
+    if (some.empty()) continue;
+    Band band = in_arena([&] { return band_of(some); });
+    clock.finish("band");
+    const auto evaluation = in_arena([&] {
+      return std::make_unique<Evaluation>(scene, rays, surface, std::move(band), light, options, passes, out);
+    });
+    clock.finish("band_tree");
+    tiles.run(passes.now, some, rays, spaces,
+              [&](int column, int row, Workspace& w) { return evaluation->tile(column, row, w); });
+    evaluation->add_counts(out.counts);
+    clock.finish("receivers");
+  }
+  out.counts.hierarchy_bytes = edges.bytes() + (merged ? merged->bytes() : 0);
   std::vector<std::uint32_t> fallback;
   for (const Workspace& w : spaces) {
     out.counts += w.counts;
@@ -383,17 +577,10 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
     out.open.insert(out.open.end(), w.open.begin(), w.open.end());
   }
   std::sort(out.open.begin(), out.open.end());
-  clock.finish("receivers");
   if (!fallback.empty()) {
     trace_fallback(scene, rays, surface, options, fallback, out);
     clock.finish("fallback");
   }
-  out.counts.faces = band.faces;
-  out.counts.mesh_edges = band.mesh_edges;
-  out.counts.band_edges = band.edges.size();
-  out.counts.cut_edges = band.cut_edges;
-  out.counts.bytes += band.edges.size() * sizeof(BandEdge) + tree.bytes() + blocks.bytes();
-  out.counts.hierarchy_bytes = edges.bytes();
   out.stages = clock.stages();
   return out;
 }

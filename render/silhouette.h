@@ -32,6 +32,8 @@ struct SilhouetteOptions {
                                 ///< of them where fewer than 256 edges cross the disk
   bool integrate = true;        ///< false: certificates only; pixels without one are listed in `open`, and
                                 ///< such that would have to look at more than some 8,000 edges are not tried
+  double moved = 2e-3;          ///< how far silhouettes of merged faces may lie from the true ones, in light
+                                ///< radii in the light's plane (merged_edges.h); 0: no faces are merged
   int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (none are known) or the offset
                                 ///< moves a receiver behind the light's plane; counted
 };
@@ -39,7 +41,8 @@ struct SilhouetteOptions {
 struct SilhouetteCounts {
   std::size_t idle_casters = 0;  ///< that hide nothing from any receiver, and are not among the following
   std::size_t faces = 0, mesh_edges = 0, band_edges = 0, cut_edges = 0;
-  std::size_t receivers = 0;  ///< in front of the light, with some of it above the horizon
+  std::size_t receivers = 0;         ///< in front of the light, with some of it above the horizon
+  std::size_t merged_receivers = 0;  ///< of these, that saw merged faces
   std::size_t certified_lit = 0, certified_umbra = 0, behind_light = 0;
   std::size_t tiles = 0, empty_tiles = 0;  ///< with receivers; of these, without edges
   std::size_t listed_edges = 0;            ///< sum over tiles of their lists' lengths, whole blocks included

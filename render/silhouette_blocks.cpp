@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
+
+#include "render/silhouette_certificate.h"
 
 namespace penumbra::detail {
 namespace {
@@ -31,24 +34,9 @@ PENUMBRA_INLINE void jumps_of(const EdgePlanes& b, const FloatPoint& p, Ints& ou
   out = sure ? jump : unsure;
 }
 
-/// Signs of a plane over a box of receivers, 0 where it has none; its tolerance covers the rounding.
-PENUMBRA_INLINE void sides_of(const PlaneLanes& plane, const FloatBox& box, Ints& out) {
-  const auto& [m, half] = box;
-  const Floats value = plane.x * m[0] + plane.y * m[1] + plane.z * m[2] + plane.offset;
-  const Floats reach =
-      magnitude(plane.x) * half[0] + magnitude(plane.y) * half[1] + magnitude(plane.z) * half[2];
-  const Floats least = 1.0001f * reach + plane.tolerance;
-  out = (magnitude(value) > least) & ((value > 0.0f) - (value < 0.0f));
-}
-
-/// Bit i is clear where both faces of edge i keep one side over a box of receivers, the same: then it is not
-/// on the silhouette for any of them.
 PENUMBRA_VECTOR_CLONES
-std::uint32_t may_be_silhouettes(const EdgePlanes& block, const FloatBox& receivers) {
-  Ints left, right;
-  sides_of(block.left, receivers, left);
-  sides_of(block.right, receivers, right);
-  return bits_of(~((left == right) & (left != 0)));
+std::uint32_t edges_to_look_at(const EdgePlanes& block, const FloatBox& receivers) {
+  return may_be_silhouettes(block, receivers);
 }
 
 constexpr Ints kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
@@ -107,7 +95,7 @@ void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
   for (const Siblings& s : list)
     for (std::uint32_t kept = s.kept; kept != 0; kept &= kept - 1) {
       const auto block = s.parent * kFloatLanes + static_cast<std::uint32_t>(std::countr_zero(kept));
-      for (std::uint32_t edges = may_be_silhouettes(blocks_[block], receivers); edges != 0;
+      for (std::uint32_t edges = edges_to_look_at(blocks_[block], receivers); edges != 0;
            edges &= edges - 1) {
         const std::uint32_t i = block * kFloatLanes + static_cast<std::uint32_t>(std::countr_zero(edges));
         if (!shaft.misses(band_.edges[i])) out.push_back(i);
@@ -126,6 +114,19 @@ bool EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, c
   at_least(out.jumps, out.places.size());
   out.count = sift_blocks(blocks_.data(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
                           out.places.data(), out.jumps.data());
+  return true;
+}
+
+bool EdgeBlocks::is_certainly_none(const BandTree& tree, const std::vector<Siblings>& list,
+                                   const Receiver& receiver, double slack, Sifted& scratch) const {
+  scratch.blocks.resize(std::max(scratch.blocks.size(), (list.size() + 1) * kFloatLanes));
+  const std::size_t count = keep_blocks(tree.blocks(), list.data(), list.size(),
+                                        ConeTest(receiver, tree.extent()), scratch.blocks.data());
+  for (const std::int32_t block : std::span(scratch.blocks).first(count)) {
+    const std::size_t first = static_cast<std::size_t>(block) * kFloatLanes;
+    for (std::size_t i = first; i < std::min(first + kFloatLanes, band_.edges.size()); ++i)
+      if (!detail::is_certainly_none(band_, i, receiver.x, slack)) return false;
+  }
   return true;
 }
 

@@ -13,23 +13,6 @@
 
 namespace penumbra::detail {
 
-/// normal·p + offset, more than 0 outside, and how much it varies over half a box.
-struct FloatPlane {
-  FloatPlane() = default;
-  FloatPlane(const Vec3& n, double offset_less_margin) : offset(static_cast<float>(offset_less_margin)) {
-    for (int k = 0; k < 3; ++k) {
-      normal[k] = static_cast<float>(n[k]);
-      steep[k] = std::abs(normal[k]);
-    }
-  }
-  PENUMBRA_INLINE Ints has_outside(const Children& c) const {
-    const Floats at = normal[0] * c.middle[0] + normal[1] * c.middle[1] + normal[2] * c.middle[2];
-    return at + offset > steep[0] * c.half[0] + steep[1] * c.half[1] + steep[2] * c.half[2];
-  }
-  std::array<float, 3> normal, steep;
-  float offset;
-};
-
 /// Drops blocks for the receivers of a shaft.
 class ShaftTest {
  public:
@@ -49,22 +32,11 @@ class ShaftTest {
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
     Ints out = are_one_sided(c, receivers_);
     for (const FloatPlane& p : planes_) out |= p.has_outside(c);
-    if (has_horizon_) out |= are_below(c);
+    if (has_horizon_) out |= are_below(c, receivers_, normals_, lowest_);
     return bits_of(out);
   }
 
  private:
-  /// Below the tangent planes of all receivers.
-  PENUMBRA_INLINE Ints are_below(const Children& c) const {
-    Floats highest{};
-    for (int k = 0; k < 3; ++k) {
-      const Floats d = c.middle[k] - receivers_.middle[k];
-      highest += normals_.middle[k] * d + normals_.half[k] * magnitude(d) +
-                 (std::abs(normals_.middle[k]) + normals_.half[k]) * c.half[k];
-    }
-    return highest < lowest_;
-  }
-
   std::array<FloatPlane, kShaftSides + 1> planes_;
   FloatBox receivers_, normals_;
   bool has_horizon_ = false;

@@ -152,6 +152,36 @@ Projection see(const BandEdge& e, const Vec3& x, double slack) {
                      pa.x * s.y - pa.y * s.x, reach * reach)};
 }
 
+namespace {
+
+/// The ball is outside of the cone from x to the disk, of a radius larger by `slack`: at height z the disk is
+/// 1 - z/x.z wide and about x.xy z/x.z.
+bool is_beside(const MergedSide& ball, const Vec3& x, double slack) {
+  if (ball.center.z - ball.radius > x.z) return true;
+  const double t = ball.center.z / x.z, steep = (std::hypot(x.x, x.y) + 1.0) / x.z;
+  const double reach = 1.0 - t + ball.radius * (1.0 + steep) + slack;
+  return reach < 0.0 || std::hypot(ball.center.x - t * x.x, ball.center.y - t * x.y) > reach;
+}
+
+}  // namespace
+
+bool is_certainly_none(const Band& band, std::size_t i, const Vec3& x, double slack) {
+  const BandEdge& e = band.edges[i];
+  const auto& [left, right] = band.sides[i];
+  // 1 in front of all planes, -1 behind all, 0 neither for certain.
+  const auto look_from = [&](const FacePlane& plane, const MergedSide& s) {
+    const double v = plane.value(x);
+    return std::abs(v) > plane.tolerance + s.reach(x) ? (v > 0.0 ? 1 : -1) : 0;
+  };
+  const int l = look_from(e.left, left), r = e.has_right() ? look_from(e.right, right) : 0;
+  if (l != 0 && l == r) return true;
+  if (l == 0 && !left.is_flat() && !is_beside(left, x, slack)) return false;
+  if (e.has_right() && r == 0 && !right.is_flat() && !is_beside(right, x, slack)) return false;
+  // The chain lies in the balls of both sides.
+  if (left.is_flat() && right.is_flat()) return !see(e, x, slack).near;
+  return (!left.is_flat() && is_beside(left, x, slack)) || (!right.is_flat() && is_beside(right, x, slack));
+}
+
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
   out.clear();
   if (list.size() <= kFewEdges) {

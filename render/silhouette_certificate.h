@@ -40,6 +40,11 @@ Projection see(const BandEdge& edge, const Vec3& x, double slack);
 
 double certificate_slack(double extent);
 
+/// Whether no face that a merged edge of the band stands for (merged_edges.h), nor the chain of edges itself,
+/// is a silhouette across the disk: patches that have faces on both sides of x lie beside the cone from x to
+/// the disk, and so does the edge where its two sides look different ways.
+bool is_certainly_none(const Band& band, std::size_t i, const Vec3& x, double slack);
+
 /// What one receiver sees: the segments that are near, have a jump, and are not wholly below its horizon.
 struct Sight {
   std::vector<Segment> segments;

@@ -31,17 +31,42 @@ class FrontSide {
   double depth_;
 };
 
+struct ToFrame {
+  const UnitLight& light;
+  Vec3 operator()(const Vec3& p) const { return light.point(p); }
+};
+
+/// Of points in the light's frame, on all cores.
+Bounds box_in_frame(std::span<const Vec3> points, const ToFrame& to_frame) {
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, points.size(), 4096), Bounds{},
+      [&](const auto& range, Bounds box) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const Vec3 p = to_frame(points[i]);
+          box.low = glm::min(box.low, p);
+          box.high = glm::max(box.high, p);
+        }
+        return box;
+      },
+      [](const Bounds& a, const Bounds& b) {
+        return Bounds{glm::min(a.low, b.low), glm::max(a.high, b.high)};
+      });
+}
+
 /// A caster under the light. Vertices are taken to the light's frame where they are needed, with the same
 /// bits each time.
 class LitCaster {
  public:
-  LitCaster(const TriangleMesh& mesh, const UnitLight& light, const FrontSide& front, double extent)
-      : mesh_(mesh), to_frame_{light}, in_front_(front), extent_(extent), box_(box_of(mesh.positions())) {
-    if (!all_in_front()) find_front();
+  LitCaster(const LitScene& lit, std::size_t object)
+      : mesh_(lit.scene.objects[object].mesh),
+        to_frame_{lit.light},
+        in_front_(lit.depth),
+        extent_(lit.extent),
+        all_in_front_(in_front_(lit.boxes[object].low)) {
+    if (!all_in_front_) find_front();
   }
 
-  const Bounds& box() const { return box_; }
-  bool all_in_front() const { return in_front_(box_.low); }
+  bool all_in_front() const { return all_in_front_; }
 
   /// Of casters that are not all in front.
   bool has_end_in_front(EdgeId id) const {
@@ -75,23 +100,6 @@ class LitCaster {
   }
 
  private:
-  /// In the light's frame, on all cores.
-  Bounds box_of(std::span<const Vec3> points) const {
-    return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(0, points.size(), 4096), Bounds{},
-        [&](const auto& range, Bounds box) {
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            const Vec3 p = to_frame_(points[i]);
-            box.low = glm::min(box.low, p);
-            box.high = glm::max(box.high, p);
-          }
-          return box;
-        },
-        [](const Bounds& a, const Bounds& b) {
-          return Bounds{glm::min(a.low, b.low), glm::max(a.high, b.high)};
-        });
-  }
-
   void find_front() {
     front_.resize(mesh_.positions.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, front_.size(), 4096), [&](const auto& range) {
@@ -100,16 +108,11 @@ class LitCaster {
     });
   }
 
-  struct ToFrame {
-    const UnitLight& light;
-    Vec3 operator()(const Vec3& p) const { return light.point(p); }
-  };
-
   MeshArrays mesh_;
   ToFrame to_frame_;
   FrontSide in_front_;
   double extent_;
-  Bounds box_;
+  bool all_in_front_;
   std::vector<char> front_;  ///< of each vertex, where some are not
 };
 
@@ -165,21 +168,42 @@ UnitLight::UnitLight(const DiskLight& light)
       up_(light.radius * axes_.v),
       per_radius_(1.0 / light.radius) {}
 
-Band make_band(const Scene& scene, const UnitLight& light, const SceneEdges& scene_edges,
-               std::span<const char> idle) {
-  Band band;
-  band.extent = extent_of(scene, light);
-  const FrontSide front(kLightOffset / scene_edges.scale() * light.per_radius());
-  LitCasters casters(scene.objects.size());
-  for (std::size_t i = 0; i < casters.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    if (!object.casts || object.mesh.empty() || (!idle.empty() && idle[i])) continue;
-    casters[i].emplace(object.mesh, light, front, band.extent);
-    band.casters.push_back(casters[i]->box());
-    band.faces += object.mesh.triangles().size();
-    band.mesh_edges += object.mesh.edges().size();
+LitScene::LitScene(const Scene& s, const UnitLight& l, double scale, std::span<const char> i)
+    : scene(s),
+      light(l),
+      idle(i),
+      depth(kLightOffset / scale * l.per_radius()),
+      boxes(s.objects.size()),
+      extent(extent_of(s, l)) {
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const SceneObject& object = s.objects[k];
+    if (!object.casts || object.mesh.empty() || (!i.empty() && i[k])) continue;
+    boxes[k] = box_in_frame(object.mesh.positions(), ToFrame{l});
+    all_in_front = all_in_front && FrontSide(depth)(boxes[k].low);
   }
-  std::vector<SceneEdge> edges = scene_edges.band_of(scene.light, idle);
+}
+
+/// A band without edges.
+static Band empty_band(const LitScene& lit) {
+  Band band;
+  band.extent = lit.extent;
+  for (std::size_t i = 0; i < lit.boxes.size(); ++i) {
+    if (!lit.casts(i)) continue;
+    band.casters.push_back(lit.boxes[i]);
+    band.faces += lit.scene.objects[i].mesh.triangles().size();
+    band.mesh_edges += lit.scene.objects[i].mesh.edges().size();
+  }
+  return band;
+}
+
+Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<const Region> regions) {
+  Band band = empty_band(lit);
+  LitCasters casters(lit.boxes.size());
+  for (std::size_t i = 0; i < casters.size(); ++i)
+    if (lit.casts(i)) casters[i].emplace(lit, i);
+  std::vector<SceneEdge> edges = regions.empty()
+                                     ? scene_edges.band_of(lit.scene.light, lit.idle)
+                                     : scene_edges.band_for(regions, lit.scene, lit.scene.light, lit.idle);
   const std::vector<CutFace> cuts = cut_at_light(casters, edges);
   band.cut_edges = cuts.size();
   band.edges = LargeArray<BandEdge>(edges.size() + cuts.size());
@@ -189,6 +213,35 @@ Band make_band(const Scene& scene, const UnitLight& light, const SceneEdges& sce
   });
   for (std::size_t i = 0; i < cuts.size(); ++i)
     band.edges[edges.size() + i] = casters[cuts[i].object]->cut_edge(cuts[i].face);
+  return band;
+}
+
+Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const MergedLevel& level) {
+  struct LightUnits {
+    const UnitLight& light;
+    Vec3 point(const Vec3& p) const { return light.point(p); }
+    Vec3 direction(const Vec3& d) const { return light.direction(d); }
+    double per_unit() const { return light.per_radius(); }
+  };
+  Band band = empty_band(lit);
+  const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.scene.light, lit.idle);
+  band.bounds.resize(blocks.size());
+  band.moved.resize(blocks.size());
+  const std::size_t missing =  // of the level's last block
+      !blocks.empty() && blocks.back() + 1 == level.block_count()
+          ? level.block_count() * MergedBlock::kEdges - level.edges.size()
+          : 0;
+  band.edges = LargeArray<BandEdge>(blocks.size() * MergedBlock::kEdges - missing);
+  band.sides.resize(band.edges.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 128), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const MergedBlock block = level.block(lit.scene, blocks[i], LightUnits{lit.light}, lit.extent);
+      std::copy_n(block.edges.begin(), block.count, band.edges.data() + i * MergedBlock::kEdges);
+      std::copy_n(block.sides.begin(), block.count, band.sides.data() + i * MergedBlock::kEdges);
+      band.bounds[i] = block.bounds();
+      band.moved[i] = static_cast<float>(block.moved * lit.light.per_radius());
+    }
+  });
   return band;
 }
 

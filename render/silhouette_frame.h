@@ -7,12 +7,14 @@
 // serves every light (scene_edges.h).
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
 
 #include "render/band_edge.h"
 #include "render/large_array.h"
+#include "render/merged_edges.h"
 #include "render/scene_edges.h"
 
 namespace penumbra::detail {
@@ -28,6 +30,8 @@ class UnitLight {
   Vec3 direction(const Vec3& world) const {
     return {glm::dot(world, axes_.u), glm::dot(world, axes_.v), glm::dot(world, axes_.w)};
   }
+  /// Rotated back.
+  Vec3 world_direction(const Vec3& d) const { return d.x * axes_.u + d.y * axes_.v + d.z * axes_.w; }
   const Vec3& normal() const { return axes_.w; }
   Vec3 world_on_disk(const glm::dvec2& p) const { return center_ + p.x * across_ + p.y * up_; }
   double per_radius() const { return per_radius_; }
@@ -38,17 +42,42 @@ class UnitLight {
   double per_radius_;
 };
 
+/// What casts in a light's frame. Refers to its arguments.
+struct LitScene {
+  /// Without the casters whose flag in `idle` (one an object, or none) is set. `scale`: of the frame of rays.
+  /// Cost O(vertices), on all cores.
+  LitScene(const Scene& scene, const UnitLight& light, double scale, std::span<const char> idle = {});
+
+  const Scene& scene;
+  const UnitLight& light;
+  std::span<const char> idle;
+  double depth;               ///< of the plane where casters end, in front of the light's; light radii
+  std::vector<Bounds> boxes;  ///< one an object, in the light's frame; empty for those that do not cast
+  double extent = 1.0;        ///< largest absolute coordinate of the scene, in light radii (at least 1)
+  bool all_in_front = true;   ///< of that plane
+
+  bool casts(std::size_t object) const { return !boxes[object].empty(); }
+};
+
 struct Band {
   LargeArray<BandEdge> edges;   ///< neighbours lie close together; those of cut faces come last
   std::vector<Bounds> casters;  ///< box of each, in the light's frame
-  double extent = 1.0;          ///< largest absolute coordinate in the scene, in light radii (at least 1)
+  double extent = 1.0;          ///< of the scene (LitScene)
   std::size_t faces = 0, mesh_edges = 0, cut_edges = 0;
+  /// Of a band of merged edges, for every eight of them: what they and the faces that they stand for lie
+  /// within, and how far the worst of them is moved (merged_edges.h; light radii).
+  std::vector<BlockBounds> bounds;
+  std::vector<float> moved;
+  /// And of each edge what its left and right side stand for.
+  std::vector<std::array<MergedSide, 2>> sides;
+  bool is_merged() const { return !moved.empty(); }
 };
 
-/// Of all casters but those whose flag in `idle` (one an object, or none) is set; `edges` are the scene's.
-/// A few edges more than the band has, by rounding. Cost O(band edges + vertices), on all cores.
-/// Deterministic. Requires radius > 0.
-Band make_band(const Scene& scene, const UnitLight& light, const SceneEdges& edges,
-               std::span<const char> idle = {});
+/// Of all casters; `edges` are the scene's. A few edges more than the band has, by rounding. Where there are
+/// `regions` only what matters to them. Cost O(band edges), and O(faces) of casters that are not all in front
+/// of the light. On all cores. Deterministic.
+Band make_band(const LitScene& lit, const SceneEdges& edges, std::span<const Region> regions = {});
+/// All of a level's edges. Requires all casters in front of the light.
+Band make_merged_band(const LitScene& lit, const MergedEdges& edges, const MergedLevel& level);
 
 }  // namespace penumbra::detail

@@ -14,6 +14,8 @@ constexpr double kLeastLength = 1e-10;    // an interval shorter than that is ro
 constexpr double kLeastRoom = 1e-3;       // beside a chain, for a ray
 constexpr double kMostCorrection = 0.02;  // of the area, by what rows are taken for representative
 constexpr int kMostRows = 1024;
+constexpr int kFewRows = 16;
+constexpr double kMostApart = 0.004;       // rows and integral, as a share of the disk
 constexpr std::size_t kMany = 256;         // segments; fewer need fewer rows for the same error
 constexpr std::size_t kMostForSlabs = 20;  // segments; beyond, rows are faster and err by less than .001
 
@@ -51,16 +53,17 @@ bool fuse_chain(const Cut& cut, const DiskPart& part, Fused& out) {
   return true;
 }
 
-void Fuser::begin() {
+void Fuser::begin(int least) {
   areas_.resize(2 * kMostLevels + 1);
   aims_ = {};
+  least_ = least;
   lowest_ = kMostLevels + 1, highest_ = -kMostLevels - 1, parity_ = 0;
 }
 
 void Fuser::add_interval(const Slab& slab, double from, double to, int level) {
   const double length = to - from;
   if (!(length > kLeastLength)) return;
-  level = std::clamp(level, -kMostLevels, kMostLevels);
+  level = std::clamp(level, least_, kMostLevels);
   areas_[level + kMostLevels] += length * slab.height;
   highest_ = std::max(highest_, level);
   if (level > lowest_) return;
@@ -136,12 +139,8 @@ void Fuser::make_heights(const DiskPart& part, const Cut& cut) {
   integrate_rim(heights_.data(), heights_.size(), rim_.data());
 }
 
-Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part) {
-  lines_.clear();
-  for (const Segment& s : cut.segments)
-    if (s.a.y != s.b.y) add_line(s);
-  make_heights(part, cut);
-  begin();
+void Fuser::sweep_slabs(const Cut& cut, const DiskPart& part, int least) {
+  begin(least);
   std::size_t before = 0;  // the height where the last slab ended
   for (std::size_t i = 1; i < heights_.size(); ++i) {
     const double low = heights_[i - 1], high = heights_[i], height = high - low;
@@ -158,31 +157,77 @@ Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part) {
     sort_crossings();
     sweep(slab);
   }
-  const Fused out = finish();
+}
+
+void Fuser::forget_areas() {
   std::fill(areas_.begin() + lowest_ + kMostLevels, areas_.begin() + highest_ + kMostLevels + 1, 0.0);
+}
+
+Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part, double sliver) {
+  lines_.clear();
+  for (const Segment& s : cut.segments)
+    if (s.a.y != s.b.y) add_line(s);
+  make_heights(part, cut);
+  sweep_slabs(cut, part, -kMostLevels);
+  while (lowest_ < highest_ && areas_[lowest_ + kMostLevels] <= sliver * part.area()) {
+    const int next = lowest_ + 1;
+    forget_areas();
+    sweep_slabs(cut, part, next);
+  }
+  Fused out = finish();
+  if (least_ > -kMostLevels) out.aims[1] = out.aims[0];  // the less roomy may be in the sliver
+  forget_areas();
   return out;
+}
+
+RowSums Fuser::sweep_rows(const Cut& cut, const DiskPart& part, int rows, double sliver) {
+  RowSums sums = rows_.sweep(cut, part, rows);
+  while (sums.levels > 1 && sums.lowest_length <= sliver * sums.length) {
+    sums = rows_.sweep(cut, part, rows, sums.lowest + 1.0);
+    sums.aims[1] = sums.aims[0];  // the shorter interval may be in the sliver
+  }
+  return sums;
 }
 
 /// Where rows and the exact integral of L disagree by much, something lies between rows that they do not
 /// represent: then four times as many are swept.
-Fused Fuser::by_rows(const Cut& cut, const DiskPart& part, int rows) {
-  const RowSums sums = rows_.sweep(cut, part, rows);
+Fused Fuser::by_rows(const Cut& cut, const DiskPart& part, int rows, double sliver) {
+  const RowSums sums = sweep_rows(cut, part, rows, sliver);
   if (!(sums.length > 0.0)) return {part.area(), 1, {part.middle(), part.middle()}, Fusion::kRows};
   const double share = sums.lowest_length / sums.length, mean = sums.first / sums.length;
   const double variance = sums.second / sums.length - mean * mean;
   const double c = sums.levels > 1 ? share * (sums.lowest - mean) / variance : 0.0;
   const double correction = c * (cut.integral - part.area() * mean);
   if (std::abs(correction) > kMostCorrection * part.area() && rows <= kMostRows / 4)
-    return by_rows(cut, part, 4 * rows);
+    return by_rows(cut, part, 4 * rows, sliver);
   const double area = part.area() * share + correction;
   return {std::clamp(area, 0.0, part.area()), sums.levels, sums.aims, Fusion::kRows};
 }
 
-void Fuser::fuse(const Cut& cut, const DiskPart& part, int rows, Fused& out) {
+bool Fuser::by_few_rows(const Cut& cut, const DiskPart& part, double sliver, Fused& out) {
+  const int step = std::abs(cut.segments.front().jump);
+  if (std::ranges::any_of(cut.segments, [=](const Segment& s) { return std::abs(s.jump) != step; }))
+    return false;
+  const RowSums sums = sweep_rows(cut, part, kFewRows, sliver);
+  if (!(sums.length > 0.0)) return false;
+  const double low = sums.lowest, high = low + step;
+  const double mean = sums.first / sums.length;
+  // (L - low)(L - high) is 0 at both levels, and two steps squared or more elsewhere.
+  const double elsewhere = (sums.second - (low + high) * sums.first) / sums.length + low * high;
+  if (!(elsewhere <= 2.0 * step * step * sliver)) return false;
+  if (std::abs(cut.integral - part.area() * mean) > kMostApart * step * part.area()) return false;
+  const double area = part.area() - (cut.integral - low * part.area()) / step;
+  out = {std::clamp(area, 0.0, part.area()), sums.levels, sums.aims, Fusion::kChain};
+  return true;
+}
+
+void Fuser::fuse(const Cut& cut, const DiskPart& part, int rows, double sliver, Fused& out) {
   if (fuse_chain(cut, part, out)) return;
   const std::size_t segments = cut.segments.size();
-  out = segments <= kMostForSlabs ? by_slabs(cut, part)
-                                  : by_rows(cut, part, segments < kMany ? (3 * rows + 3) / 4 : rows);
+  if (segments <= kMostForSlabs)
+    out = by_slabs(cut, part, sliver);
+  else if (!(sliver > 0.0) || !by_few_rows(cut, part, sliver, out))
+    out = by_rows(cut, part, segments < kMany ? (3 * rows + 3) / 4 : rows, sliver);
 }
 
 }  // namespace penumbra::detail

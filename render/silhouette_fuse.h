@@ -17,6 +17,10 @@
 //   which is exact again where only two levels occur; rows only have to measure the overlap. Where the two
 //   disagree by much, four times as many rows are swept.
 //
+// Silhouettes of merged faces (merged_edges.h) turn back here and there, in slivers that the true ones do not
+// have, at levels that may lie below the true lowest. With those left out of account, few rows tell whether
+// there are two levels, and then the integral is the answer.
+//
 // Rays aim at two points of the lowest level far from the segments; the second serves where the first is
 // hidden, since a point may happen to lie near an edge.
 #pragma once
@@ -39,12 +43,15 @@ struct Fused {
 /// For one receiver after the other, with memory kept between them.
 class Fuser {
  public:
-  /// Into `out`, all of it. `rows`: how many where there are many segments. Cost for s segments: s for a
-  /// chain, s² for slabs; of rows see silhouette_rows.h.
-  void fuse(const Cut& cut, const DiskPart& part, int rows, Fused& out);
+  /// Into `out`, all of it. `rows`: how many where there are many segments. `sliver`: a lowest level whose
+  /// share of D's area is that or less is none, and counts as the next; 0 for true silhouettes. Cost for s
+  /// segments: s for a chain, s² for slabs; of rows see silhouette_rows.h.
+  void fuse(const Cut& cut, const DiskPart& part, int rows, double sliver, Fused& out);
 
-  Fused by_slabs(const Cut& cut, const DiskPart& part);
-  Fused by_rows(const Cut& cut, const DiskPart& part, int rows);
+  Fused by_slabs(const Cut& cut, const DiskPart& part, double sliver = 0.0);
+  Fused by_rows(const Cut& cut, const DiskPart& part, int rows, double sliver = 0.0);
+  /// Where a few rows find two levels but for slivers, and agree with the integral of L; else false.
+  bool by_few_rows(const Cut& cut, const DiskPart& part, double sliver, Fused& out);
 
  private:
   struct Line {  ///< a segment upwards
@@ -68,7 +75,10 @@ class Fuser {
 
   void add_line(const Segment& segment);
   void make_heights(const DiskPart& part, const Cut& cut);
-  void begin();
+  RowSums sweep_rows(const Cut& cut, const DiskPart& part, int rows, double sliver);
+  void begin(int least);
+  void sweep_slabs(const Cut& cut, const DiskPart& part, int least);
+  void forget_areas();
   void sort_crossings();
   void sweep(const Slab& slab);
   void add_interval(const Slab& slab, double from, double to, int level);
@@ -80,7 +90,7 @@ class Fuser {
   std::vector<Crossing> crossings_;
   std::vector<double> areas_;  ///< by level
   std::array<Aim, 2> aims_;    ///< in the lowest level so far, in slabs of either parity
-  int lowest_ = 0, highest_ = 0, parity_ = 0;
+  int least_ = 0, lowest_ = 0, highest_ = 0, parity_ = 0;  ///< lower levels count as the least
 };
 
 /// Closed form for one chain; false where it is none, or where there is little room beside it for a ray.

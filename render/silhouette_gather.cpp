@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -99,6 +100,32 @@ void Shaft::tighten(std::span<const Receiver> receivers) {
 Shaft::Side Shaft::side_plane(int k) const {
   if (k == kShaftSides) return {{0.0, 0.0, 1.0}, -top_};
   return {{kDirections.x[k], kDirections.y[k], -slope_[k]}, -1.0};
+}
+
+Region Shaft::region(std::span<const Receiver> receivers, const UnitLight& light,
+                     const RayFrame& frame) const {
+  static_assert(Region::kPlanes == kShaftSides + 1);
+  std::array<Region::Plane, Region::kPlanes> planes;
+  const double scale = light.per_radius() / frame.scale;  // light radii a unit of the frame
+  const Vec3 origin = light.point(frame.origin);
+  for (int k = 0; k <= kShaftSides; ++k) {
+    const Side side = side_plane(k);
+    const double per_length = 1.0 / (scale * glm::length(side.normal));
+    planes[k] = {per_length * scale * light.world_direction(side.normal),
+                 per_length * (glm::dot(side.normal, origin) + side.offset)};
+  }
+  const auto rotated = [&](const Vec3& half) {  // the box of a rotated box
+    return glm::abs(light.world_direction({half.x, 0.0, 0.0})) +
+           glm::abs(light.world_direction({0.0, half.y, 0.0})) +
+           glm::abs(light.world_direction({0.0, 0.0, half.z}));
+  };
+  Region out(planes, light.world_direction(middle_ - origin) / scale, rotated(half_) / scale);
+  if (horizon_)
+    out.add_horizon(light.world_direction(0.5 * (normal_low_ + normal_high_)),
+                    rotated(0.5 * (normal_high_ - normal_low_)), lowest_ / scale);
+  for (const Receiver& r : receivers)
+    out.add_receiver(light.world_direction(r.x - origin) / scale, light.world_direction(r.normal));
+  return out;
 }
 
 bool Shaft::below_horizons(const Vec3& p) const {

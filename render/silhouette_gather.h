@@ -14,6 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "render/ray_scene.h"
+#include "render/region.h"
 #include "render/silhouette_domain.h"
 #include "render/silhouette_frame.h"
 
@@ -50,6 +52,8 @@ class Shaft {
     double offset;
   };
   Side side_plane(int k) const;
+  /// The same for the frame of rays.
+  Region region(std::span<const Receiver> receivers, const UnitLight& light, const RayFrame& frame) const;
   const Vec3& middle() const { return middle_; }
   const Vec3& half() const { return half_; }
   /// Some receiver's horizon cuts the disk; the box of all receivers' normals, and the least normal·(receiver

@@ -104,6 +104,7 @@ struct Sweep {
 
   Reals left, right;
   Reals from, level;  // where the interval at hand begins, and its L
+  double least;
   Reals length{}, first{}, second{}, lowest{}, lowest_length{}, best{}, middle{};  // as in RowResults
   Integers seen{};
 
@@ -111,7 +112,8 @@ struct Sweep {
       : left(Lanes::load(rows.left + lane)),
         right(Lanes::load(rows.right + lane)),
         from(left),
-        level(Lanes::load(rows.level + lane)) {
+        level(Lanes::load(rows.level + lane)),
+        least(rows.least) {
     lowest += kNoLevel;
   }
 
@@ -121,18 +123,19 @@ struct Sweep {
     const Reals right_of_left = key > left ? key : left;
     const Reals x = right_of_left < right ? right_of_left : right;
     const Reals ahead = x - from, long_enough = ahead > kLeastLength ? ahead : zero;
+    const Reals counted = level > least ? level : zero + least;
     length += long_enough;
-    first += level * long_enough;
-    second += level * level * long_enough;
+    first += counted * long_enough;
+    second += counted * counted * long_enough;
 
-    const Reals met = long_enough > 0.0 ? level : none;
+    const Reals met = long_enough > 0.0 ? counted : none;
     const Reals sum = met < lowest ? zero : lowest_length, longest = met < lowest ? zero : best;
     lowest = met < lowest ? met : lowest;
     const Reals at_lowest = met == lowest ? long_enough : zero;
     lowest_length = sum + at_lowest;
     middle = at_lowest > longest ? 0.5 * (from + x) : middle;
     best = at_lowest > longest ? at_lowest : longest;
-    const Integers one = Integers{} + 1, bit = one << (__builtin_bit_cast(Integers, level + kMagic) & 63);
+    const Integers one = Integers{} + 1, bit = one << (__builtin_bit_cast(Integers, counted + kMagic) & 63);
     seen |= long_enough > 0.0 ? bit : Integers{};
 
     from = x > from ? x : from;
@@ -271,7 +274,7 @@ void Rows::start_levels(const Cut& cut, const DiskPart& part) {
 }
 
 RowStarts Rows::starts(int first) const {
-  return {&left_[first], &right_[first], &levels_[first]};
+  return {&left_[first], &right_[first], &levels_[first], least_};
 }
 
 void Rows::add(const RowResults& rows, int first, Sums& sums) const {
@@ -291,7 +294,9 @@ void Rows::add(const RowResults& rows, int first, Sums& sums) const {
 }
 
 template <class Sweep>
-RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, const Sweep& sweep_from) {
+RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, double least,
+                         const Sweep& sweep_from) {
+  least_ = least;
   place_rows(part, rows);
   cross(cut);
   start_levels(cut, part);
@@ -309,8 +314,8 @@ RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, const S
   return out;
 }
 
-RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows) {
-  return sweep_with(cut, part, rows, [&](int first, RowResults& out) {
+RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows, double least) {
+  return sweep_with(cut, part, rows, least, [&](int first, RowResults& out) {
     const int count = longest_[first / kRowLanes];
     RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kRowLanes) * most_;
     sort_lanes(keys, count);
@@ -318,8 +323,8 @@ RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows) {
   });
 }
 
-RowSums Rows::sweep_singly(const Cut& cut, const DiskPart& part, int rows) {
-  return sweep_with(cut, part, rows, [&](int first, RowResults& out) {
+RowSums Rows::sweep_singly(const Cut& cut, const DiskPart& part, int rows, double least) {
+  return sweep_with(cut, part, rows, least, [&](int first, RowResults& out) {
     RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kRowLanes) * most_;
     const int count = longest_[first / kRowLanes];
     for (int l = 0; l < kRowLanes; ++l) sort_row(keys, count, l);  // keys of no crossing stay last

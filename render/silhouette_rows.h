@@ -36,6 +36,7 @@ struct alignas(kRowLanes * sizeof(double)) RowKeys {
 struct RowStarts {
   const double *left, *right;  ///< ends
   const double* level;         ///< L at the left ends
+  double least;                ///< lower levels count as this
 };
 
 /// The same rows behind their last one.
@@ -49,11 +50,12 @@ struct alignas(kRowLanes * sizeof(double)) RowResults {
 /// For one receiver after the other, with memory kept between them.
 class Rows {
  public:
-  /// `rows` at even distances across D. Cost for s segments with c crossings, at most m in a row: s + c +
-  /// rows m².
-  RowSums sweep(const Cut& cut, const DiskPart& part, int rows);
+  static constexpr double kNoLeast = -1e9;
+  /// `rows` at even distances across D; levels below `least` count as that. Cost for s segments with c
+  /// crossings, at most m in a row: s + c + rows m².
+  RowSums sweep(const Cut& cut, const DiskPart& part, int rows, double least = kNoLeast);
   /// The same with rows sorted one by one and code for any processor: the same bits, for tests.
-  RowSums sweep_singly(const Cut& cut, const DiskPart& part, int rows);
+  RowSums sweep_singly(const Cut& cut, const DiskPart& part, int rows, double least = kNoLeast);
 
  private:
   struct CrossingSegment {
@@ -74,9 +76,10 @@ class Rows {
   RowStarts starts(int first) const;
   void add(const RowResults& rows, int first, Sums& sums) const;
   template <class Sweep>
-  RowSums sweep_with(const Cut& cut, const DiskPart& part, int rows, const Sweep& sweep_from);
+  RowSums sweep_with(const Cut& cut, const DiskPart& part, int rows, double least, const Sweep& sweep_from);
 
   int rows_ = 0;
+  double least_ = kNoLeast;
   std::size_t stride_ = 0;  ///< rows, rounded up
   double bottom_ = 0.0, spacing_ = 0.0, per_spacing_ = 0.0;
   bool whole_disk_ = false;  ///< the ends of rows are those of the whole disk

@@ -8,6 +8,7 @@ namespace penumbra::detail {
 namespace {
 
 std::vector<BlockBounds> bounds_of_blocks(const Band& band) {
+  if (band.is_merged()) return band.bounds;
   constexpr std::size_t kEdges = BandTree::kFanOut;
   std::vector<BlockBounds> out((band.edges.size() + kEdges - 1) / kEdges);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 512), [&](const auto& range) {

@@ -1,6 +1,7 @@
 // Times of named stages, for --stats and benchmarks.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -16,11 +17,16 @@ struct StageTime {
 
 class StageClock {
  public:
-  /// Ends the stage that began when the clock was made or last asked.
-  void finish(std::string name) {
+  /// Ends the stage that began when the clock was made or last asked. Times of one name add up.
+  void finish(const std::string& name) {
     const auto now = std::chrono::steady_clock::now();
-    stages_.push_back({std::move(name), std::chrono::duration<double, std::milli>(now - start_).count()});
+    const double time = std::chrono::duration<double, std::milli>(now - start_).count();
     start_ = now;
+    const auto same = std::ranges::find(stages_, name, &StageTime::name);
+    if (same == stages_.end())
+      stages_.push_back({name, time});
+    else
+      same->milliseconds += time;
   }
   /// A stage that was timed elsewhere; the clock goes on from now.
   void add(StageTime stage) {

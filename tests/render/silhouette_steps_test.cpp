@@ -181,7 +181,8 @@ TEST(Integrate, IsExactForOneChord) {
 
 Band band_of(const Scene& scene) {
   const RayFrame frame = ray_frame(scene);
-  return make_band(scene, UnitLight(scene.light), SceneEdges(scene, frame.origin, frame.scale));
+  const UnitLight light(scene.light);
+  return make_band(LitScene(scene, light, frame.scale), SceneEdges(scene, frame.origin, frame.scale));
 }
 
 /// Random triangles between light and receivers as a band.

@@ -1,0 +1,127 @@
+// Levels of merged edges: what is left of a fine mesh's edges where patches of faces are taken for one.
+//
+// In: casters, once. Out: for tolerances that double from level to level, the edges between patches
+// (face_patches.h), with chains of edges between the same two patches replaced by one from end to end. The
+// surface stays as closed as it was, since every chain keeps its ends. A level moves the silhouette that x
+// sees at p by at most `moved` · |x - p| · (what x sees at p is magnified by), not counting where it moves
+// within the surface: a chain between patches that look almost the same way is seen edge-on, so that of the
+// area S between chain and edge only the part across the surface counts, and of that along it as much as the
+// patches' normals differ.
+//
+// Casters of few faces and faces that no patch holds stay as they are, with nothing moved.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <span>
+#include <vector>
+
+#include "render/bounds_tree.h"
+#include "render/face_patches.h"
+#include "render/scene.h"
+
+namespace penumbra::detail {
+
+struct MergedEdge {
+  static constexpr std::uint32_t kNoSide = 0xffffffffu;
+  std::uint32_t object;       ///< index in the scene
+  VertexId from, to;          ///< of its mesh
+  std::uint32_t left, right;  ///< as in FacePatches::Cut::side; kNoSide without a right one
+  float moved = 0.0f;         ///< see above; scene units
+};
+
+/// What one side of an edge stands for in some frame: faces within a ball whose planes differ from the side's
+/// by at most tilt · distance from the center + spread. All 0 where it is one face, or flat.
+struct MergedSide {
+  Vec3 center{0.0};
+  double radius = 0.0, tilt = 0.0, spread = 0.0;
+  bool is_flat() const { return !(radius > 0.0); }
+  /// How far the values of its planes at x may lie from the side's.
+  double reach(const Vec3& x) const { return tilt * glm::distance(x, center) + spread; }
+};
+
+/// Eight edges that lie close together, in some frame.
+struct MergedBlock {
+  static constexpr std::size_t kEdges = BoundsTree::kFanOut;
+  using Side = MergedSide;
+  std::size_t count = 0;
+  std::array<BandEdge, kEdges> edges;
+  std::array<std::array<Side, 2>, kEdges> sides;
+  float moved = 0.0f;  ///< the largest; scene units
+  /// Of the edges and of all faces that they stand for.
+  BlockBounds bounds() const;
+};
+
+struct MergedLevel {
+  std::vector<MergedEdge> edges;                ///< neighbours lie close together
+  std::vector<std::vector<FacePatch>> patches;  ///< of each object
+  BoundsTree tree;                              ///< over the blocks, in the frame of rays
+  double moved = 0.0;                           ///< of those edges that are moved the mean; scene units
+
+  /// Block i in a frame with point(p), direction(d) and per_unit(), with coordinates up to `extent`.
+  template <class Frame>
+  MergedBlock block(const Scene& scene, std::size_t i, const Frame& frame, double extent) const;
+  std::size_t block_count() const { return (edges.size() + MergedBlock::kEdges - 1) / MergedBlock::kEdges; }
+  std::size_t bytes() const;
+
+ private:
+  template <class Frame>
+  FacePlane side(const Scene& scene, const MergedEdge& e, std::uint32_t side, const Frame& frame,
+                 double extent, MergedBlock::Side& out) const;
+};
+
+class MergedEdges {
+ public:
+  /// In the frame (p - origin) · scale. Cost O(F log F) in the faces of large casters, on all cores.
+  MergedEdges(const Scene& scene, const Vec3& origin, double scale);
+  /// Coarsest last; none where merging does not pay.
+  const std::vector<MergedLevel>& levels() const { return levels_; }
+  /// Blocks of a level with faces of which the light may see both sides, ascending; without those of objects
+  /// whose flag in `idle` (one an object, or none) is set.
+  std::vector<std::uint32_t> blocks_of(const MergedLevel& level, const DiskLight& light,
+                                       std::span<const char> idle) const;
+  std::size_t bytes() const;
+
+ private:
+  Vec3 origin_;
+  double scale_;
+  std::vector<MergedLevel> levels_;
+};
+
+template <class Frame>
+FacePlane MergedLevel::side(const Scene& scene, const MergedEdge& e, std::uint32_t side, const Frame& frame,
+                            double extent, MergedBlock::Side& out) const {
+  if (side == MergedEdge::kNoSide) return kNoFace;
+  const TriangleMesh& mesh = scene.objects[e.object].mesh;
+  const std::size_t faces = mesh.triangles().size();
+  if (side < faces)
+    return MeshArrays(mesh).plane(
+        FaceId{side}, [&](const Vec3& p) { return frame.point(p); }, extent);
+  const FacePatch& patch = patches[e.object][side - faces];
+  const Vec3 center = frame.point(patch.center), normal = frame.direction(patch.normal);
+  if (!patch.is_flat())
+    out = {center, patch.radius * frame.per_unit(), patch.tilt, patch.spread * frame.per_unit()};
+  const double rounding =
+      0x1p-44 * extent +
+      (patch.is_flat() ? patch.tilt * 4.0 * extent + patch.spread * frame.per_unit() : 0.0);
+  return {normal, -glm::dot(normal, center), rounding};
+}
+
+template <class Frame>
+MergedBlock MergedLevel::block(const Scene& scene, std::size_t i, const Frame& frame, double extent) const {
+  MergedBlock out;
+  out.count = std::min(MergedBlock::kEdges, edges.size() - i * MergedBlock::kEdges);
+  for (std::size_t k = 0; k < out.count; ++k) {
+    const MergedEdge& e = edges[i * MergedBlock::kEdges + k];
+    const TriangleMesh& mesh = scene.objects[e.object].mesh;
+    out.edges[k] = {frame.point(mesh.position(e.from)), frame.point(mesh.position(e.to)),
+                    side(scene, e, e.left, frame, extent, out.sides[k][0]),
+                    side(scene, e, e.right, frame, extent, out.sides[k][1])};
+    out.moved = std::max(out.moved, e.moved);
+  }
+  return out;
+}
+
+}  // namespace penumbra::detail
