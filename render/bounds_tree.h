@@ -73,6 +73,9 @@ class BoundsTree {
   /// Blocks that the test does not drop, nor what they lie in, ascending.
   template <class Test>
   void gather(const Test& test, std::vector<Siblings>& out) const;
+  /// Blocks whose groups of eight the test does not drop, as many as `gather` finds or more.
+  template <class Test>
+  std::size_t count_at_most(const Test& test) const;
   /// Of these blocks those that the test does not drop.
   void narrow(const std::vector<Siblings>& list, const SidesTest& test, std::vector<Siblings>& out) const;
   /// Bounds of the blocks, by their parents.
@@ -80,6 +83,9 @@ class BoundsTree {
   std::size_t bytes() const;
 
  private:
+  template <class Test>
+  void gather_down_to(std::size_t last, const Test& test, std::vector<Siblings>& out) const;
+
   double extent_ = 1.0;
   Bounds box_;
   std::vector<std::vector<Children>> levels_;  ///< blocks first
@@ -87,15 +93,28 @@ class BoundsTree {
 
 template <class Test>
 void BoundsTree::gather(const Test& test, std::vector<Siblings>& out) const {
+  gather_down_to(0, test, out);
+}
+
+template <class Test>
+std::size_t BoundsTree::count_at_most(const Test& test) const {
+  if (levels_.size() < 2) return levels_.size() * kFanOut;
+  std::vector<Siblings> groups;
+  gather_down_to(1, test, groups);
+  return count_blocks(groups) * kFanOut;
+}
+
+template <class Test>
+void BoundsTree::gather_down_to(std::size_t last, const Test& test, std::vector<Siblings>& out) const {
   constexpr std::uint32_t kAll = (1u << kFanOut) - 1;
   out.clear();
   if (levels_.empty()) return;
   std::vector<Siblings> kept;
   out.push_back({0, kAll});
-  for (std::size_t level = levels_.size(); level-- > 0;) {
+  for (std::size_t level = levels_.size(); level-- > last;) {
     kept.resize(out.size());
     kept.resize(keep(test, levels_[level].data(), out.data(), out.size(), kept.data()));
-    if (level == 0) return std::swap(out, kept);
+    if (level == last) return std::swap(out, kept);
     out.clear();
     for (const Siblings& s : kept)
       for (std::uint32_t bits = s.kept; bits != 0; bits &= bits - 1)

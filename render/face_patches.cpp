@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kLevels = 12;  // the largest patch has 2^11 times as many flats as the smallest
 constexpr double kMostTilt = 0.5;
+constexpr double kNothing = 0x1p-36;  // of a patch's radius, an error by rounding
 constexpr double kFlat = 1e-4;  // between normals of faces that lie in one plane, but for rounding to float
 
 using Corners = std::array<Vec3, 3>;
@@ -175,7 +176,10 @@ FacePatch FacePatches::patch(std::size_t first, std::size_t last) const {
   out.center = middle + (height / length) * out.normal;
   double turned = 0.0, apart = 0.0;
   for (std::size_t i = first; i < last; ++i) {
-    for (const Vec3& p : corners_[i]) out.radius = std::max(out.radius, glm::distance(out.center, p));
+    for (const Vec3& p : corners_[i]) {
+      out.radius = std::max(out.radius, glm::distance(out.center, p));
+      out.thick = std::max(out.thick, std::abs(glm::dot(out.normal, p - out.center)));
+    }
     const Vec3 face = area_of(corners_[i]);
     const double a = glm::length(face);
     if (!(a > 0.0)) continue;
@@ -189,6 +193,7 @@ FacePatch FacePatches::patch(std::size_t first, std::size_t last) const {
     apart += a * off;
   }
   out.error = 0.5 * (turned + apart / out.radius) / std::sqrt(area);
+  if (out.error <= kNothing * out.radius) out.error = 0.0;
   return out;
 }
 

@@ -29,11 +29,12 @@ struct FacePatch {
   double radius = 0.0;  ///< of that ball; scene units
   double tilt = 0.0;    ///< largest |normal of a face - normal|
   double spread = 0.0;  ///< largest distance of the center from a face's plane; scene units
+  double thick = 0.0;   ///< largest distance of a corner from the mean plane; scene units
   double error = std::numeric_limits<double>::infinity();  ///< above; scene units
   FaceId first{0};                                         ///< one of its faces
 
-  /// But for rounding: its outline is all there is to see of it.
-  bool is_flat() const { return tilt <= 0x1p-36 && spread <= 0x1p-36 * radius; }
+  /// But for rounding to float.
+  bool is_flat() const { return tilt <= 0x1p-14; }
 };
 
 class FacePatches {

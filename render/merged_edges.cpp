@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -19,7 +20,7 @@ namespace {
 constexpr std::size_t kFewFaces = 4096;  // a caster's, whose edges are not merged
 constexpr double kFinest = 0x1p-22;      // tolerance of the first level, in the frame of rays
 constexpr int kMostLevels = 13;          // each with twice the tolerance
-constexpr double kWorthWhile = 0.12;     // of the faces, at most, for the first level
+constexpr double kWorthWhile = 0.04;     // of the faces, at most, for the first level
 constexpr double kWorthAnother = 0.75;   // of the patches of the level before, at most
 constexpr double kStraight = 0x1p-36;    // of its length squared, what a straight chain sweeps by rounding
 constexpr std::size_t kLanes = kFloatLanes;
@@ -27,7 +28,8 @@ constexpr std::size_t kLanes = kFloatLanes;
 /// An edge on its way through the levels.
 struct Chain {
   std::uint32_t from, to, left, right;
-  Vec3 swept{0.0};  ///< area between what was merged and the edge from end to end
+  Vec3 swept{0.0};     ///< area between what was merged and the edge from end to end
+  double stray = 0.0;  ///< how far from that edge anything merged lies
 };
 
 double cross_part(const Vec3& area, const Vec3& normal) {
@@ -55,6 +57,15 @@ class Merger {
            swept_width(c.left, c.right, c.swept, c.from, c.to);
   }
 
+  double margin(const Chain& c) const {
+    const auto of_side = [&](std::uint32_t side) {
+      if (side == MergedEdge::kNoSide || side < faces()) return 0.0;
+      const FacePatch& p = patches_[side - faces()];
+      return 2.0 * (p.thick + p.spread + p.radius * p.tilt);
+    };
+    return c.stray + std::max(of_side(c.left), of_side(c.right));
+  }
+
   /// Merges faces, then chains of edges, to a larger tolerance than before.
   void merge(double tolerance) {
     if (!tree_) return;
@@ -67,7 +78,7 @@ class Merger {
     const auto add = [&](Chain c) {
       c.left = merged(c.left), c.right = merged(c.right);
       if (c.left == c.right) return;
-      if (c.left > c.right) c = {c.to, c.from, c.right, c.left, -c.swept};
+      if (c.left > c.right) c = {c.to, c.from, c.right, c.left, -c.swept, c.stray};
       edges.push_back(c);
     };
     if (chains_.empty())
@@ -87,8 +98,7 @@ class Merger {
   std::size_t faces() const { return mesh_.triangles().size(); }
   double error_of(std::uint32_t side) const {
     if (side == MergedEdge::kNoSide || side < faces()) return 0.0;
-    const FacePatch& patch = patches_[side - faces()];
-    return patch.is_flat() ? 0.0 : patch.error;
+    return patches_[side - faces()].error;
   }
   Vec3 normal_of(std::uint32_t side) const {
     if (side >= faces()) return patches_[side - faces()].normal;
@@ -97,10 +107,17 @@ class Merger {
     return unit(glm::cross(mesh_.positions()[t[1]] - a, mesh_.positions()[t[2]] - a));
   }
 
+  const Vec3& position(std::uint32_t vertex) const { return mesh_.positions()[vertex]; }
+  double distance_from(std::uint32_t vertex, const Chain& edge) const {
+    const Vec3 a = position(edge.from), along = position(edge.to) - a, p = position(vertex) - a;
+    const double t = glm::clamp(glm::dot(p, along) / glm::dot(along, along), 0.0, 1.0);
+    return glm::distance(p, t * along);
+  }
+
   /// How far an edge moves a silhouette sideways that has swept this area.
   double swept_width(std::uint32_t left, std::uint32_t right, const Vec3& swept, std::uint32_t from,
                      std::uint32_t to) const {
-    const double length = glm::distance(mesh_.position(VertexId{from}), mesh_.position(VertexId{to}));
+    const double length = glm::distance(position(from), position(to));
     if (!(length > 0.0)) return std::numeric_limits<double>::infinity();
     if (glm::length(swept) <= kStraight * length * length) return 0.0;
     if (right == MergedEdge::kNoSide) return glm::length(swept) / length;
@@ -134,22 +151,32 @@ class Merger {
       if (goes_on(edges[i].from)) continue;
       Chain chain = edges[i];
       done[i] = 1;
+      std::vector<std::uint32_t> passed;  // vertices that the chain leaves out
+      const auto finish = [&] {
+        double stray = 0.0;
+        for (const std::uint32_t v : passed) stray = std::max(stray, distance_from(v, chain));
+        chain.stray += stray;
+        chains_.push_back(chain);
+        passed.clear();
+      };
       while (goes_on(chain.to)) {
         const std::uint32_t next = meetings[chain.to].out - 1;
         const Chain& more = edges[next];
         done[next] = 1;
-        const Vec3 start = mesh_.position(VertexId{chain.from}), middle = mesh_.position(VertexId{chain.to});
-        const Vec3 swept = chain.swept + more.swept +
-                           0.5 * glm::cross(middle - start, mesh_.position(VertexId{more.to}) - start);
+        const Vec3 start = position(chain.from), middle = position(chain.to);
+        const Vec3 swept =
+            chain.swept + more.swept + 0.5 * glm::cross(middle - start, position(more.to) - start);
         if (swept_width(chain.left, chain.right, swept, chain.from, more.to) <= tolerance) {
+          passed.push_back(chain.to);
           chain.swept = swept;
           chain.to = more.to;
+          chain.stray = std::max(chain.stray, more.stray);
         } else {
-          chains_.push_back(chain);
+          finish();
           chain = more;
         }
       }
-      chains_.push_back(chain);
+      finish();
     }
     for (std::uint32_t i = 0; i < edges.size(); ++i)
       if (!done[i]) chains_.push_back(edges[i]);
@@ -186,7 +213,8 @@ std::vector<MergedEdge> neighbours_together(const Scene& scene,
       const Vec3 middle = 0.5 * mesh.position(from) + 0.5 * mesh.position(to);
       placed.push_back(
           {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)},
-           {object, from, to, c.left, c.right, static_cast<float>(mergers[object]->moved(c))}});
+           {object, from, to, c.left, c.right, static_cast<float>(mergers[object]->moved(c)),
+            static_cast<float>(1.0001 * mergers[object]->margin(c))}});
     }
   }
   order_by_place(placed.data(), placed.data() + placed.size(), kLanes);
@@ -224,17 +252,20 @@ BlockBounds MergedBlock::bounds() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Bounds box, normals;
   for (std::size_t k = 0; k < count; ++k) {
-    box.add(edges[k].a);
-    box.add(edges[k].b);
-    for (const Side& s : sides[k]) {
-      if (s.is_flat()) continue;
+    const MergedSides& both = sides[k];
+    for (const Vec3& end : {edges[k].a, edges[k].b}) {
+      box.add(end - both.margin);
+      box.add(end + both.margin);
+    }
+    for (const MergedSides::Side& s : {both.left, both.right}) {
+      if (s.is_flat) continue;
       box.add(s.center - s.radius);
       box.add(s.center + s.radius);
     }
   }
   BlockBounds out{box.low, box.high, Vec3(0.0), Vec3(0.0), kInfinity, -kInfinity};
   const Vec3 middle = box.center();
-  const auto add = [&](const FacePlane& plane, const Side& s) {
+  const auto add = [&](const FacePlane& plane, const MergedSides::Side& s) {
     if (plane.tolerance < 0.0) {
       out.near_low = -kInfinity, out.near_high = kInfinity;
       return;
@@ -247,8 +278,8 @@ BlockBounds MergedBlock::bounds() const {
     out.near_high = std::max(out.near_high, v + off);
   };
   for (std::size_t k = 0; k < count; ++k) {
-    add(edges[k].left, sides[k][0]);
-    add(edges[k].right, sides[k][1]);
+    add(edges[k].left, sides[k].left);
+    add(edges[k].right, sides[k].right);
   }
   out.normal_low = normals.low, out.normal_high = normals.high;
   return out;

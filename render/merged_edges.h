@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <span>
@@ -30,25 +31,36 @@ struct MergedEdge {
   VertexId from, to;          ///< of its mesh
   std::uint32_t left, right;  ///< as in FacePatches::Cut::side; kNoSide without a right one
   float moved = 0.0f;         ///< see above; scene units
+  float margin = 0.0f;        ///< what it stands for is seen at most that far beside it; scene units
 };
 
-/// What one side of an edge stands for in some frame: faces within a ball whose planes differ from the side's
-/// by at most tilt · distance from the center + spread. All 0 where it is one face, or flat.
-struct MergedSide {
-  Vec3 center{0.0};
-  double radius = 0.0, tilt = 0.0, spread = 0.0;
-  bool is_flat() const { return !(radius > 0.0); }
-  /// How far the values of its planes at x may lie from the side's.
-  double reach(const Vec3& x) const { return tilt * glm::distance(x, center) + spread; }
+/// What the two sides of an edge stand for, in some frame. Where x sees a patch from both sides it sees it
+/// edge-on: it lies in a slab that is `thick` either way, x is no farther from the middle of that than its
+/// faces' planes differ there, and so the patch is a strip whose outline runs all along it. With x twice the
+/// patch's radius away the strip is seen as wide as 2 (thick + spread + radius · tilt) would be at the patch.
+/// So nothing of it is seen farther from its outline than that, nor farther from the edges in place of its
+/// outline than that and what they were straightened by: `margin`.
+struct MergedSides {
+  struct Side {
+    Vec3 center{0.0};
+    double radius = 0.0;              ///< of a ball around the faces; 0 where one face is alone
+    double tilt = 0.0, spread = 0.0;  ///< planes differ by tilt · distance from the center + spread at most
+    bool is_flat = true;              ///< but for rounding (FacePatch)
+    double reach(const Vec3& x) const {  // the sum of components is no less than the distance, and cheaper
+      return tilt * (std::abs(x.x - center.x) + std::abs(x.y - center.y) + std::abs(x.z - center.z)) + spread;
+    }
+    bool is_far(const Vec3& x) const { return glm::distance(x, center) >= 2.0 * radius; }
+  };
+  Side left, right;
+  double margin = 0.0;
 };
 
 /// Eight edges that lie close together, in some frame.
 struct MergedBlock {
   static constexpr std::size_t kEdges = BoundsTree::kFanOut;
-  using Side = MergedSide;
   std::size_t count = 0;
   std::array<BandEdge, kEdges> edges;
-  std::array<std::array<Side, 2>, kEdges> sides;
+  std::array<MergedSides, kEdges> sides;
   float moved = 0.0f;  ///< the largest; scene units
   /// Of the edges and of all faces that they stand for.
   BlockBounds bounds() const;
@@ -69,7 +81,7 @@ struct MergedLevel {
  private:
   template <class Frame>
   FacePlane side(const Scene& scene, const MergedEdge& e, std::uint32_t side, const Frame& frame,
-                 double extent, MergedBlock::Side& out) const;
+                 double extent, MergedSides::Side& out) const;
 };
 
 class MergedEdges {
@@ -92,7 +104,7 @@ class MergedEdges {
 
 template <class Frame>
 FacePlane MergedLevel::side(const Scene& scene, const MergedEdge& e, std::uint32_t side, const Frame& frame,
-                            double extent, MergedBlock::Side& out) const {
+                            double extent, MergedSides::Side& out) const {
   if (side == MergedEdge::kNoSide) return kNoFace;
   const TriangleMesh& mesh = scene.objects[e.object].mesh;
   const std::size_t faces = mesh.triangles().size();
@@ -100,13 +112,10 @@ FacePlane MergedLevel::side(const Scene& scene, const MergedEdge& e, std::uint32
     return MeshArrays(mesh).plane(
         FaceId{side}, [&](const Vec3& p) { return frame.point(p); }, extent);
   const FacePatch& patch = patches[e.object][side - faces];
-  const Vec3 center = frame.point(patch.center), normal = frame.direction(patch.normal);
-  if (!patch.is_flat())
-    out = {center, patch.radius * frame.per_unit(), patch.tilt, patch.spread * frame.per_unit()};
-  const double rounding =
-      0x1p-44 * extent +
-      (patch.is_flat() ? patch.tilt * 4.0 * extent + patch.spread * frame.per_unit() : 0.0);
-  return {normal, -glm::dot(normal, center), rounding};
+  const Vec3 normal = frame.direction(patch.normal);
+  out = {frame.point(patch.center), patch.radius * frame.per_unit(), patch.tilt,
+         patch.spread * frame.per_unit(), patch.is_flat()};
+  return {normal, -glm::dot(normal, out.center), 0x1p-44 * extent};
 }
 
 template <class Frame>
@@ -117,8 +126,9 @@ MergedBlock MergedLevel::block(const Scene& scene, std::size_t i, const Frame& f
     const MergedEdge& e = edges[i * MergedBlock::kEdges + k];
     const TriangleMesh& mesh = scene.objects[e.object].mesh;
     out.edges[k] = {frame.point(mesh.position(e.from)), frame.point(mesh.position(e.to)),
-                    side(scene, e, e.left, frame, extent, out.sides[k][0]),
-                    side(scene, e, e.right, frame, extent, out.sides[k][1])};
+                    side(scene, e, e.left, frame, extent, out.sides[k].left),
+                    side(scene, e, e.right, frame, extent, out.sides[k].right)};
+    out.sides[k].margin = e.margin * frame.per_unit();
     out.moved = std::max(out.moved, e.moved);
   }
   return out;

@@ -143,6 +143,10 @@ std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<con
   return out;
 }
 
+std::size_t SceneEdges::size_of_band(const DiskLight& light) const {
+  return tree_.count_at_most(SidesTest(disk_of(light).box)) * kLanes;
+}
+
 /// What a region's receivers have to look at. Which edges have their faces on both sides of a receiver is
 /// asked in float; whether they lie below its tangent plane is not, since receivers lie so little above their
 /// surfaces. Ends of edges lie anywhere in memory: they are sent for before they are needed.

@@ -44,6 +44,8 @@ class SceneEdges {
   /// Those of the light's band, neighbours close together, but for objects whose flag in `idle` (one an
   /// object, or none) is set. Cost O(band + √E), on all cores.
   std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> idle) const;
+  /// At least as many as these, within a few times. Cost O(√E) where the surface is fine.
+  std::size_t size_of_band(const DiskLight& light) const;
   /// Of these what may matter to the receivers of some regions. Cost: some 20 μs a region.
   std::vector<SceneEdge> band_for(std::span<const Region> regions, const Scene& scene, const DiskLight& light,
                                   std::span<const char> idle) const;

@@ -36,7 +36,9 @@ constexpr std::size_t kMostToCertify = 8192;  // edges; with more, rays cost les
                                               // hardly ever found there
 constexpr std::size_t kManyBlocks = 64;  // lists of more may be narrowed down to receivers block by block,
 constexpr double kMostKept = 0.4;        // if one receiver keeps at most that share
-constexpr double kSliver = 0.5;          // of the disk, for how far silhouettes are moved
+constexpr double kMostMerged =
+    0.125;                       // of the edges that may be in the band, where merged ones are looked at
+constexpr double kSliver = 0.5;  // of the disk, for how far silhouettes are moved
 constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
 
 /// What one thread keeps between tiles, and what it has counted.
@@ -46,6 +48,7 @@ struct Workspace {
   std::vector<Fused> fused;         ///< one a receiver
   std::vector<char> certain;        ///< one a receiver
   std::vector<std::uint32_t> edges;
+  std::vector<EdgesOfBlock> doubtful;           ///< merged edges, see gather_doubtful
   std::array<std::vector<Siblings>, 3> blocks;  ///< of the tile, and of its parts
   EdgeList list, part_list;                     ///< of the tile, and of the part at hand
   Sight sight;
@@ -234,6 +237,7 @@ Evaluation::Moves Evaluation::moves(const Shaft& shaft, const std::vector<Siblin
 }
 
 void Evaluation::look_around(const Shaft& shaft, Workspace& w) const {
+  if (band_.is_merged()) gather_doubtful(band_, w.blocks[0], shaft, w.doubtful);
   w.fused.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
   w.tasks.clear();
@@ -339,8 +343,20 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& lis
 /// nothing is certified there. Of merged faces some may look the other way than their patch does.
 bool Evaluation::is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const {
   if (!w.sight.certain || part.is_cut()) return false;
-  return !band_.is_merged() ||
-         blocks_.is_certainly_none(tree_, w.blocks[0], w.receivers[i], slack_, w.sight.sifted);
+  if (!band_.is_merged() || w.doubtful.empty()) return true;
+  const Receiver& r = w.receivers[i];
+  auto doubtful = w.doubtful.begin();
+  for (const std::int32_t block : blocks_.blocks_for(tree_, w.blocks[0], r, w.sight.sifted)) {
+    while (doubtful != w.doubtful.end() && doubtful->block < block) ++doubtful;
+    if (doubtful == w.doubtful.end()) return true;
+    if (doubtful->block != block) continue;
+    for (std::uint32_t edges = doubtful->edges; edges != 0; edges &= edges - 1) {
+      const std::size_t edge = static_cast<std::size_t>(block) * BandTree::kFanOut +
+                               static_cast<std::size_t>(std::countr_zero(edges));
+      if (!is_certainly_none(band_, edge, r, slack_)) return false;
+    }
+  }
+  return true;
 }
 
 /// What a receiver sees, integrated; or the certificate.
@@ -494,13 +510,18 @@ std::vector<Region> regions_of(const Tiles& tiles, const std::vector<int>& some,
   return out;
 }
 
-/// None but the last, where nothing is to be merged or a caster crosses the light's plane.
-Passes make_passes(const LitScene& lit, const MergedEdges* merged, double moved, std::size_t pixels) {
+/// None but the last, where nothing is to be merged or a caster crosses the light's plane. Levels that leave
+/// most of the band's edges are no help.
+Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double moved,
+                   std::size_t pixels) {
   Passes out;
-  if (!merged || !lit.all_in_front) return out;
+  if (!merged || merged->levels().empty() || !lit.all_in_front) return out;
+  const double most = kMostMerged * static_cast<double>(edges.size_of_band(lit.scene.light));
   for (const MergedLevel& level : merged->levels() | std::views::reverse) {
     const double in_radii = level.moved * lit.light.per_radius();
     if (in_radii > moved) continue;
+    const std::size_t blocks = merged->blocks_of(level, lit.scene.light, lit.idle).size();
+    if (static_cast<double>(blocks * MergedBlock::kEdges) > most) break;
     out.levels.push_back(&level);
     out.moved.push_back(in_radii);
   }
@@ -543,7 +564,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   out.counts.idle_casters = static_cast<std::size_t>(std::count(idle.begin(), idle.end(), char{1}));
   const LitScene lit = in_arena([&] { return LitScene(scene, light, rays.frame().scale, idle); });
 
-  Passes passes = make_passes(lit, merged, options.moved, surface.size());
+  Passes passes = in_arena([&] { return make_passes(lit, edges, merged, options.moved, surface.size()); });
   Tiles tiles(surface, progress);
   const auto band_of = [&](const std::vector<int>& some) {
     if (passes.now < passes.last()) return make_merged_band(lit, *merged, *passes.levels[passes.now]);

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <span>
-
-#include "render/silhouette_certificate.h"
 
 namespace penumbra::detail {
 namespace {
@@ -103,30 +100,23 @@ void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
     }
 }
 
+std::span<const std::int32_t> EdgeBlocks::blocks_for(const BandTree& tree, const std::vector<Siblings>& list,
+                                                     const Receiver& receiver, Sifted& scratch) const {
+  auto& blocks = scratch.blocks;
+  blocks.resize(std::max(blocks.size(), (list.size() + 1) * kFloatLanes));
+  const ConeTest cone(receiver, tree.extent());
+  return {blocks.data(), keep_blocks(tree.blocks(), list.data(), list.size(), cone, blocks.data())};
+}
+
 bool EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
                       std::size_t most, Sifted& out) const {
   const auto at_least = [](auto& buffer, std::size_t size) { buffer.resize(std::max(buffer.size(), size)); };
-  at_least(out.blocks, (list.size() + 1) * kFloatLanes);
-  out.looked_into = keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
-                                out.blocks.data());
+  out.looked_into = blocks_for(tree, list, receiver, out).size();
   if (out.looked_into > most) return false;
   at_least(out.places, (out.looked_into + 1) * kFloatLanes);
   at_least(out.jumps, out.places.size());
   out.count = sift_blocks(blocks_.data(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
                           out.places.data(), out.jumps.data());
-  return true;
-}
-
-bool EdgeBlocks::is_certainly_none(const BandTree& tree, const std::vector<Siblings>& list,
-                                   const Receiver& receiver, double slack, Sifted& scratch) const {
-  scratch.blocks.resize(std::max(scratch.blocks.size(), (list.size() + 1) * kFloatLanes));
-  const std::size_t count = keep_blocks(tree.blocks(), list.data(), list.size(),
-                                        ConeTest(receiver, tree.extent()), scratch.blocks.data());
-  for (const std::int32_t block : std::span(scratch.blocks).first(count)) {
-    const std::size_t first = static_cast<std::size_t>(block) * kFloatLanes;
-    for (std::size_t i = first; i < std::min(first + kFloatLanes, band_.edges.size()); ++i)
-      if (!detail::is_certainly_none(band_, i, receiver.x, slack)) return false;
-  }
   return true;
 }
 

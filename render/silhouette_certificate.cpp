@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <utility>
 
 #include "render/silhouette_domain.h"
@@ -13,6 +15,7 @@ namespace penumbra::detail {
 namespace {
 
 constexpr double kHair = 0x1p-23;
+constexpr double kStraight = 1e-3;    // of the certificate's slack, a margin that it covers
 constexpr std::size_t kFewEdges = 6;  // one by one: vectors would not be filled
 
 /// How a projected edge lies; the numbers are in the order in which they are looked for.
@@ -154,32 +157,67 @@ Projection see(const BandEdge& e, const Vec3& x, double slack) {
 
 namespace {
 
-/// The ball is outside of the cone from x to the disk, of a radius larger by `slack`: at height z the disk is
-/// 1 - z/x.z wide and about x.xy z/x.z.
-bool is_beside(const MergedSide& ball, const Vec3& x, double slack) {
-  if (ball.center.z - ball.radius > x.z) return true;
-  const double t = ball.center.z / x.z, steep = (std::hypot(x.x, x.y) + 1.0) / x.z;
-  const double reach = 1.0 - t + ball.radius * (1.0 + steep) + slack;
-  return reach < 0.0 || std::hypot(ball.center.x - t * x.x, ball.center.y - t * x.y) > reach;
+/// 1 for an edge's side of which only fronts are seen from a box of receivers, -1 only backs, 0 where that is
+/// not certain.
+PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePlane& plane,
+                              const MergedSides::Side& side) {
+  if (plane.tolerance < 0.0) return 0;
+  const double v = plane.value(middle);
+  const double off = plane.tolerance + side.reach(middle) + glm::dot(glm::abs(plane.normal), half) +
+                     (half == Vec3(0.0) ? 0.0 : side.tilt * glm::length(half));
+  return std::abs(v) > off ? (v > 0.0 ? 1 : -1) : 0;
 }
 
 }  // namespace
 
-bool is_certainly_none(const Band& band, std::size_t i, const Vec3& x, double slack) {
-  const BandEdge& e = band.edges[i];
-  const auto& [left, right] = band.sides[i];
-  // 1 in front of all planes, -1 behind all, 0 neither for certain.
-  const auto look_from = [&](const FacePlane& plane, const MergedSide& s) {
-    const double v = plane.value(x);
-    return std::abs(v) > plane.tolerance + s.reach(x) ? (v > 0.0 ? 1 : -1) : 0;
+void gather_doubtful(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft,
+                     std::vector<EdgesOfBlock>& out) {
+  out.clear();
+  const Vec3 &middle = shaft.middle(), &half = shaft.half();
+  const auto is_doubtful = [&](std::size_t i) {
+    const BandEdge& e = band.edges[i];
+    const MergedSides& s = band.sides[i];
+    const int left = look_from(middle, half, e.left, s.left),
+              right = look_from(middle, half, e.right, s.right);
+    if (left != 0 && left == right) return false;
+    Bounds box;
+    for (const Vec3& end : {e.a, e.b}) box.add(Bounds{end - s.margin, end + s.margin});
+    for (const auto& [looks, side] : {std::pair{left, &s.left}, std::pair{right, &s.right}})
+      if (looks == 0 && !side->is_flat)
+        box.add(Bounds{side->center - side->radius, side->center + side->radius});
+    return !shaft.misses(box.low, box.high);
   };
-  const int l = look_from(e.left, left), r = e.has_right() ? look_from(e.right, right) : 0;
-  if (l != 0 && l == r) return true;
-  if (l == 0 && !left.is_flat() && !is_beside(left, x, slack)) return false;
-  if (e.has_right() && r == 0 && !right.is_flat() && !is_beside(right, x, slack)) return false;
-  // The chain lies in the balls of both sides.
-  if (left.is_flat() && right.is_flat()) return !see(e, x, slack).near;
-  return (!left.is_flat() && is_beside(left, x, slack)) || (!right.is_flat() && is_beside(right, x, slack));
+  for_each_block(list, [&](std::size_t block) {
+    const std::size_t first = block * kFloatLanes;
+    EdgesOfBlock doubtful{static_cast<std::int32_t>(block), 0};
+    for (std::size_t i = first; i < std::min(first + kFloatLanes, band.edges.size()); ++i)
+      if (is_doubtful(i)) doubtful.edges |= 1u << (i - first);
+    if (doubtful.edges != 0) out.push_back(doubtful);
+  });
+}
+
+bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver, double slack) {
+  const BandEdge& e = band.edges[i];
+  const MergedSides& sides = band.sides[i];
+  const Vec3& x = receiver.x;
+  const int left = look_from(x, Vec3(0.0), e.left, sides.left),
+            right = look_from(x, Vec3(0.0), e.right, sides.right);
+  if (left != 0 && left == right) return true;
+  const auto is_below = [&](const Vec3& p, double margin) {
+    return glm::dot(receiver.normal, p - x) < -margin;
+  };
+  for (const auto& [looks, side] : {std::pair{left, &sides.left}, std::pair{right, &sides.right}})
+    if (looks == 0 && !side->is_flat && !side->is_far(x) && !is_below(side->center, side->radius))
+      return false;
+  if (is_below(e.a, sides.margin + slack) && is_below(e.b, sides.margin + slack)) return true;
+  if (sides.margin <= slack * kStraight) return !see(e, x, slack).near;
+  if (std::min(e.a.z, e.b.z) - sides.margin > x.z) return true;
+  // What is seen of it lies within its margin: as if it were an edge of one face, and the disk wider.
+  const double below = x.z - std::max(e.a.z, e.b.z) - sides.margin;
+  if (!(below > 0.0)) return false;
+  const double steep = (glm::length(glm::dvec2(x)) + 1.0) / x.z;
+  const FacePlane unknown{Vec3(0.0), 0.0, std::numeric_limits<double>::infinity()};
+  return !see({e.a, e.b, unknown, unknown}, x, slack + sides.margin * (1.0 + steep) * x.z / below).near;
 }
 
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {

@@ -40,10 +40,18 @@ Projection see(const BandEdge& edge, const Vec3& x, double slack);
 
 double certificate_slack(double extent);
 
-/// Whether no face that a merged edge of the band stands for (merged_edges.h), nor the chain of edges itself,
-/// is a silhouette across the disk: patches that have faces on both sides of x lie beside the cone from x to
-/// the disk, and so does the edge where its two sides look different ways.
-bool is_certainly_none(const Band& band, std::size_t i, const Vec3& x, double slack);
+/// Some edges of a block, by bits.
+struct EdgesOfBlock {
+  std::int32_t block;
+  std::uint32_t edges;
+};
+/// Of a list of blocks of a band of merged edges those edges that may stand for a silhouette across the disk
+/// (merged_edges.h) for some receiver of the shaft; blocks ascend as in the list.
+void gather_doubtful(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft,
+                     std::vector<EdgesOfBlock>& out);
+/// Whether one of them does not for a receiver: its sides' faces look the same way, or what is seen of them
+/// lies beside the disk or below the receiver's tangent plane.
+bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver, double slack);
 
 /// What one receiver sees: the segments that are near, have a jump, and are not wholly below its horizon.
 struct Sight {

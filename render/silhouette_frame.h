@@ -7,7 +7,6 @@
 // serves every light (scene_edges.h).
 #pragma once
 
-#include <array>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -69,7 +68,7 @@ struct Band {
   std::vector<BlockBounds> bounds;
   std::vector<float> moved;
   /// And of each edge what its left and right side stand for.
-  std::vector<std::array<MergedSide, 2>> sides;
+  std::vector<MergedSides> sides;
   bool is_merged() const { return !moved.empty(); }
 };
 
