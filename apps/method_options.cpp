@@ -72,12 +72,21 @@ void add_d_buffer_options(CLI::App& command, DBufferOptions& options) {
 }
 
 void add_silhouette_options(CLI::App& command, SilhouetteOptions& options) {
+  const char* group = "Method silhouette: exact area between the edges that each pixel sees (CPU)";
   command
       .add_option("--silhouette-rows", options.rows,
                   "Scanlines across the disk where many edges overlap; few edges are exact without")
       ->check(CLI::Range(4, 1024))
       ->capture_default_str()
-      ->group("Method silhouette: exact area between the edges that each pixel sees (CPU)");
+      ->group(group);
+  command
+      .add_option(
+          "--silhouette-moved", options.moved,
+          "How far silhouettes may be moved by merging faces of fine casters, light radii; 0: none are "
+          "merged")
+      ->check(CLI::Range(0.0, 0.1))
+      ->capture_default_str()
+      ->group(group);
 }
 
 /// `auto`, `orthographic` or a number greater than 0.

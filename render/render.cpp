@@ -58,6 +58,7 @@ nlohmann::json to_json(const SilhouetteCounts& c) {
           {"band_edges", c.band_edges},
           {"cut_edges", c.cut_edges},
           {"receivers", c.receivers},
+          {"merged_receivers", c.merged_receivers},
           {"certified_lit", c.certified_lit},
           {"certified_umbra", c.certified_umbra},
           {"behind_light", c.behind_light},
@@ -208,7 +209,7 @@ Seen Renderer::State::by_silhouette(const RenderOptions& options, const SurfaceB
   SilhouetteResult r = silhouette_visibility(scene, rays, surface, silhouette, options.progress);
   for (const StageTime& s : r.stages) clock.add(s);
   if (silhouette.integrate) {
-    stats["options"] = {{"rows", silhouette.rows}};
+    stats["options"] = {{"rows", silhouette.rows}, {"moved", silhouette.moved}};
   } else {
     const ReferenceResult open =
         trace_reference(scene, rays, surface, r.open, options.reference, false, options.progress);

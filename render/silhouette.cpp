@@ -544,6 +544,8 @@ void require_valid(const Scene& scene, const SilhouetteOptions& options) {
   if (!(scene.light.radius > 0.0)) throw UsageError("silhouettes need a light of radius above 0");
   if (options.rows < 4 || options.rows > 1024)
     throw UsageError("rows must lie in 4 to 1024, not " + std::to_string(options.rows));
+  if (!(options.moved >= 0.0 && options.moved <= 0.1))
+    throw UsageError("moved must lie in 0 to 0.1 light radii, not " + std::to_string(options.moved));
 }
 
 }  // namespace

@@ -28,12 +28,14 @@
 namespace penumbra {
 
 struct SilhouetteOptions {
-  int rows = 64;                ///< scanlines where more than two levels may occur, 4 to 1024; three quarters
-                                ///< of them where fewer than 256 edges cross the disk
-  bool integrate = true;        ///< false: certificates only; pixels without one are listed in `open`, and
-                                ///< such that would have to look at more than some 8,000 edges are not tried
-  double moved = 2e-3;          ///< how far silhouettes of merged faces may lie from the true ones, in light
-                                ///< radii in the light's plane (merged_edges.h); 0: no faces are merged
+  int rows = 64;          ///< scanlines where more than two levels may occur, 4 to 1024; three quarters
+                          ///< of them where fewer than 256 edges cross the disk
+  bool integrate = true;  ///< false: certificates only; pixels without one are listed in `open`, and
+                          ///< such that would have to look at more than some 8,000 edges are not tried
+  double moved = 2e-3;    ///< how far silhouettes of merged faces may lie from the true ones, in light
+                          ///< radii in the light's plane (merged_edges.h), 0 to 0.1; 0: no faces are
+                          ///< merged. Only for casters of 4,096 faces or more, and never for `integrate`
+                          ///< false
   int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (none are known) or the offset
                                 ///< moves a receiver behind the light's plane; counted
 };

@@ -2,12 +2,12 @@
 // frames grow with faces and with the light.
 #include <cstdio>
 #include <string>
-#include <unordered_map>
 
 #include "mesh/shapes.h"
 #include "render/silhouette.h"
 #include "tests/bench/bench_support.h"
 #include "tests/render/face_overlap.h"
+#include "tests/render/subdivide.h"
 
 namespace penumbra::bench {
 namespace {
@@ -61,28 +61,6 @@ CertifiedShares certified_shares(const Scene& scene, const RayScene& rays, const
     may_be_umbra += o == 0.0f ? 1.0 : 0.0;
   return {testing::certified_share_of_free(scene, rays, surface, region, 5'000'000).share,
           umbra + may_be_umbra > 0.0 ? umbra / (umbra + may_be_umbra) : 1.0};
-}
-
-/// Every face cut in four at the middles of its sides.
-TriangleMesh cut_in_four(const TriangleMesh& mesh) {
-  std::vector<Vec3> points(mesh.positions().begin(), mesh.positions().end());
-  std::vector<IndexedTriangle> faces;
-  std::unordered_map<std::uint64_t, std::uint32_t> middles;
-  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax(a, b);
-    const auto [at, is_new] =
-        middles.try_emplace(std::uint64_t{high} << 32 | low, static_cast<std::uint32_t>(points.size()));
-    if (is_new) points.push_back(0.5 * (points[a] + points[b]));
-    return at->second;
-  };
-  for (const IndexedTriangle& t : mesh.triangles()) {
-    const std::uint32_t p = middle(t[0], t[1]), q = middle(t[1], t[2]), r = middle(t[2], t[0]);
-    faces.push_back({t[0], p, r});
-    faces.push_back({p, t[1], q});
-    faces.push_back({r, q, t[2]});
-    faces.push_back({p, q, r});
-  }
-  return TriangleMesh::build(points, faces);
 }
 
 /// Median milliseconds of frames.
@@ -152,7 +130,7 @@ void time_silhouette_growth() {
   scene = bench_scene("torus-medium");
   first = 0.0;
   for (int i = 0; i <= 5; ++i) {
-    if (i > 0) scene.objects.back().mesh = cut_in_four(scene.objects.back().mesh);
+    if (i > 0) scene.objects.back().mesh = testing::cut_in_four(scene.objects.back().mesh);
     first = time_growth("torus, cut in four", scene, first);
   }
   for (const double scale : {0.25, 0.5, 1.0, 2.0, 4.0}) {

@@ -142,6 +142,60 @@ TEST(Fuse, WhatLiesBetweenRowsIsFound) {
   EXPECT_NEAR(fuser.by_rows(cut, part, 64).area, exact, 0.01);
 }
 
+/// Silhouettes of merged faces turn back here and there: tiny loops the wrong way round, at a level below
+/// all.
+TEST(Fuse, SliversBelowTheLowestLevelCountForNothing) {
+  Random random(20);
+  const auto outline = [](std::vector<Segment>& out, const std::vector<dvec2>& corners, int jump) {
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      out.push_back({corners[k], corners[(k + 1) % corners.size()], jump});
+  };
+  Fuser fuser;
+  for (int i = 0; i < 100; ++i) {
+    const DiskPart part(i % 2 == 0 ? no_horizon() : random_horizon(random));
+    std::vector<Segment> segments;
+    const dvec2 d = random.unit2(), side{-d.y, d.x}, foot = random.uniform(-0.6, 0.6) * side;
+    outline(segments, {foot - 9.0 * d, foot + 9.0 * d, foot + 9.0 * (d + side), foot - 9.0 * (d - side)}, 2);
+    Cut whole;
+    cut_segments(segments, 0, part, whole);
+    if (!whole.closed || whole.segments.empty()) continue;
+    const double exact = fuser.by_slabs(whole, part).area;
+    if (exact <= 1e-3 * part.area()) continue;  // a sliver itself
+    const int slivers = 1 + i % 9;
+    for (int k = 0; k < slivers; ++k) {
+      const dvec2 at = foot + random.uniform(-0.7, 0.7) * d + random.uniform(-0.02, 0.02) * side;
+      outline(segments, {at, at + 0.02 * d, at + 0.02 * d + 0.002 * side}, -2);
+    }
+    Cut cut;
+    cut_segments(segments, 0, part, cut);
+    Fused fused;
+    fuser.fuse(cut, part, 64, 1e-3, fused);
+    EXPECT_NEAR(fused.area, exact, 1e-3) << i;
+    EXPECT_NEAR(fuser.by_slabs(cut, part, 1e-3).area, exact, 1e-3) << i;
+    EXPECT_NEAR(fuser.by_rows(cut, part, 64, 1e-3).area, exact, 2e-3) << i;
+    if (fuser.by_few_rows(cut, part, 1e-3, fused)) {
+      EXPECT_NEAR(fused.area, exact, 1e-3) << i;
+    }
+  }
+}
+
+/// A second caster within the first's shadow is no sliver, wherever it lies between few rows.
+TEST(Fuse, FewRowsDoNotMistakeOverlapForTwoLevels) {
+  Random random(24);
+  Fuser fuser;
+  for (int i = 0; i < 300; ++i) {
+    const DiskPart part(no_horizon());
+    std::vector<Segment> segments = random_polygons(random, 2 + i % 3);
+    Cut cut;
+    cut_segments(segments, 0, part, cut);
+    if (!cut.closed || cut.segments.empty()) continue;
+    Fused few;
+    if (fuser.by_few_rows(cut, part, 1e-3, few)) {
+      EXPECT_NEAR(few.area, fuser.by_slabs(cut, part).area, 0.02) << i;
+    }
+  }
+}
+
 TEST(Rows, VectorsAgreeWithRowsSortedSingly) {
   Random random(19);
   Rows together, singly;
