@@ -75,6 +75,18 @@ PENUMBRA_INLINE Ints are_below(const Children& c, const FloatBox& receivers, con
   return highest < lowest;
 }
 
+/// The same for one receiver by the planes of the blocks' faces, which is closer where a block lies along the
+/// surface: a corner p of a face with normal n and a value v at the box's middle m has n·(p - m) = -v.
+PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receiver, const FloatBox& normal,
+                               float lowest) {
+  Floats highest = c.value_half - c.value;
+  for (int k = 0; k < 3; ++k) {
+    const Floats apart = magnitude(normal.middle[k] - c.normal[k]) + c.normal_half[k] + normal.half[k];
+    highest += normal.middle[k] * (c.middle[k] - receiver.middle[k]) + apart * c.half[k];
+  }
+  return highest < lowest;
+}
+
 /// Drops blocks for receivers in a box, by the sides of planes alone.
 class SidesTest {
  public:

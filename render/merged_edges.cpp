@@ -17,10 +17,11 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr std::size_t kFewFaces = 4096;  // a caster's, whose edges are not merged
+constexpr std::size_t kFewFaces = 1024;  // a caster's, whose edges are not merged
 constexpr double kFinest = 0x1p-22;      // tolerance of the first level, in the frame of rays
 constexpr int kMostLevels = 13;          // each with twice the tolerance
 constexpr double kWorthWhile = 0.04;     // of the faces, at most, for the first level
+constexpr double kWorthFlat = 0.3;       // the same for what is flat
 constexpr double kWorthAnother = 0.75;   // of the patches of the level before, at most
 constexpr double kStraight = 0x1p-36;    // of its length squared, what a straight chain sweeps by rounding
 constexpr std::size_t kLanes = kFloatLanes;
@@ -248,21 +249,22 @@ MergedLevel make_level(const Scene& scene, const std::vector<std::optional<Merge
 
 }  // namespace
 
+void MergedBlock::make_boxes() {
+  for (std::size_t k = 0; k < count; ++k) {
+    MergedSides& s = sides[k];
+    Bounds box{glm::min(edges[k].a, edges[k].b) - s.margin, glm::max(edges[k].a, edges[k].b) + s.margin};
+    for (const MergedSides::Side& side : {s.left, s.right})
+      if (!side.is_flat) box.add(Bounds{side.center - side.radius, side.center + side.radius});
+    s.middle = box.center();
+    s.half = (0.5 + 0x1p-50) * (box.high - box.low);
+  }
+}
+
 BlockBounds MergedBlock::bounds() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Bounds box, normals;
-  for (std::size_t k = 0; k < count; ++k) {
-    const MergedSides& both = sides[k];
-    for (const Vec3& end : {edges[k].a, edges[k].b}) {
-      box.add(end - both.margin);
-      box.add(end + both.margin);
-    }
-    for (const MergedSides::Side& s : {both.left, both.right}) {
-      if (s.is_flat) continue;
-      box.add(s.center - s.radius);
-      box.add(s.center + s.radius);
-    }
-  }
+  for (std::size_t k = 0; k < count; ++k)
+    box.add(Bounds{sides[k].middle - sides[k].half, sides[k].middle + sides[k].half});
   BlockBounds out{box.low, box.high, Vec3(0.0), Vec3(0.0), kInfinity, -kInfinity};
   const Vec3 middle = box.center();
   const auto add = [&](const FacePlane& plane, const MergedSides::Side& s) {
@@ -312,7 +314,7 @@ MergedEdges::MergedEdges(const Scene& scene, const Vec3& origin, double scale)
   double most_parts = kWorthWhile * faces;
   for (int i = 0; i < kMostLevels; ++i) {
     const double tolerance = std::ldexp(kFinest, i) / scale, parts = count_parts(tolerance);
-    if (parts > most_parts) continue;
+    if (parts > (i == 0 ? kWorthFlat * faces : most_parts)) continue;
     most_parts = kWorthAnother * parts;
     tbb::parallel_for(std::size_t{0}, mergers.size(), [&](std::size_t k) {
       if (mergers[k]) mergers[k]->merge(tolerance);

@@ -53,6 +53,7 @@ struct MergedSides {
   };
   Side left, right;
   double margin = 0.0;
+  Vec3 middle{0.0}, half{0.0};  ///< of a box around the edge, with its margin, and the faces of curved sides
 };
 
 /// Eight edges that lie close together, in some frame.
@@ -62,7 +63,9 @@ struct MergedBlock {
   std::array<BandEdge, kEdges> edges;
   std::array<MergedSides, kEdges> sides;
   float moved = 0.0f;  ///< the largest; scene units
-  /// Of the edges and of all faces that they stand for.
+  /// Each edge's box.
+  void make_boxes();
+  /// Of the edges and of all faces that they stand for; requires boxes.
   BlockBounds bounds() const;
 };
 
@@ -131,6 +134,7 @@ MergedBlock MergedLevel::block(const Scene& scene, std::size_t i, const Frame& f
     out.sides[k].margin = e.margin * frame.per_unit();
     out.moved = std::max(out.moved, e.moved);
   }
+  out.make_boxes();
   return out;
 }
 

@@ -44,8 +44,8 @@ class RayScene {
 
   const RayFrame& frame() const { return frame_; }
   double build_ms() const { return build_ms_; }
-  /// The accurate rung's hierarchy over all edges of casters (scene_edges.h), made when it is first used; 0
-  /// before.
+  /// What the accurate rung's hierarchies over edges of casters took (scene_edges.h, merged_edges.h), which
+  /// are made when they are first used; 0 before.
   double edge_hierarchy_ms() const;
 
   struct Impl;

@@ -48,7 +48,9 @@ class Region {
     bool is_below(const Vec3& p) const { return glm::dot(normal_, p - at_) < -0x1p-44; }
     /// Bit i is set for block i: one-sided, or below the tangent plane.
     PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
-      return bits_of(are_one_sided(c, box_) | are_below(c, box_, normals_, -16.0f * kPointGrain));
+      constexpr float kLowest = -16.0f * kPointGrain;
+      return bits_of(are_one_sided(c, box_) | are_below(c, box_, normals_, kLowest) |
+                     are_under(c, box_, normals_, kLowest));
     }
 
    private:

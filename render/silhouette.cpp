@@ -1,17 +1,14 @@
 #include "render/silhouette.h"
 
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <mutex>
 #include <numbers>
-#include <ranges>
+#include <utility>
 
 #include "mesh/error.h"
 #include "render/idle_casters.h"
@@ -20,6 +17,7 @@
 #include "render/silhouette_blocks.h"
 #include "render/silhouette_fuse.h"
 #include "render/silhouette_gather.h"
+#include "render/silhouette_passes.h"
 #include "render/silhouette_rays.h"
 #include "render/silhouette_receivers.h"
 
@@ -31,14 +29,11 @@ using namespace detail;
 constexpr double kPi = std::numbers::pi;
 
 constexpr std::size_t kShortList = 24;        // edges; shorter lists are not narrowed
-constexpr std::size_t kFewReceivers = 16;     // a quarter of a tile: narrowing for fewer costs what it saves
 constexpr std::size_t kMostToCertify = 8192;  // edges; with more, rays cost less than to look for what is
                                               // hardly ever found there
 constexpr std::size_t kManyBlocks = 64;  // lists of more may be narrowed down to receivers block by block,
 constexpr double kMostKept = 0.4;        // if one receiver keeps at most that share
-constexpr double kMostMerged =
-    0.125;                       // of the edges that may be in the band, where merged ones are looked at
-constexpr double kSliver = 0.5;  // of the disk, for how far silhouettes are moved
+constexpr double kSliver = 0.5;          // of the disk, for how far silhouettes are moved
 constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
 
 /// What one thread keeps between tiles, and what it has counted.
@@ -48,7 +43,8 @@ struct Workspace {
   std::vector<Fused> fused;         ///< one a receiver
   std::vector<char> certain;        ///< one a receiver
   std::vector<std::uint32_t> edges;
-  std::vector<EdgesOfBlock> doubtful;           ///< merged edges, see gather_doubtful
+  std::vector<EdgesOfBlock> doubtful;           ///< merged edges, see gather_doubtful; when first asked for,
+  const Shaft* doubts_at = nullptr;             ///< for these receivers
   std::array<std::vector<Siblings>, 3> blocks;  ///< of the tile, and of its parts
   EdgeList list, part_list;                     ///< of the tile, and of the part at hand
   Sight sight;
@@ -80,24 +76,6 @@ void add_task(std::vector<RayTask>& tasks, std::uint32_t pixel, const glm::dvec2
   task.step_back = step_back;
   task.receiver = receiver;
 }
-
-/// Which edges each pixel's receiver looks at: those of merged faces first, coarsest levels first, and those
-/// of all faces last.
-struct Passes {
-  std::vector<const MergedLevel*> levels;
-  std::vector<double> moved;     ///< of the levels; light radii
-  std::vector<std::uint8_t> of;  ///< pixels that are not done: their pass
-  int now = 0;
-
-  int last() const { return static_cast<int>(levels.size()); }
-  /// The next one whose edges are hardly anywhere moved farther than that.
-  int next(double allowed) const {
-    constexpr double kSpread = 1.5;
-    int pass = now + 1;
-    while (pass < last() && moved[pass] * kSpread > allowed) ++pass;
-    return pass;
-  }
-};
 
 /// One frame: everything that tiles share, and the result they write to (each its own pixels).
 class Evaluation {
@@ -237,7 +215,7 @@ Evaluation::Moves Evaluation::moves(const Shaft& shaft, const std::vector<Siblin
 }
 
 void Evaluation::look_around(const Shaft& shaft, Workspace& w) const {
-  if (band_.is_merged()) gather_doubtful(band_, w.blocks[0], shaft, w.doubtful);
+  w.doubts_at = &shaft;
   w.fused.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
   w.tasks.clear();
@@ -343,7 +321,9 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& lis
 /// nothing is certified there. Of merged faces some may look the other way than their patch does.
 bool Evaluation::is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const {
   if (!w.sight.certain || part.is_cut()) return false;
-  if (!band_.is_merged() || w.doubtful.empty()) return true;
+  if (!band_.is_merged()) return true;
+  if (w.doubts_at) gather_doubtful(band_, w.blocks[0], *std::exchange(w.doubts_at, nullptr), w.doubtful);
+  if (w.doubtful.empty()) return true;
   const Receiver& r = w.receivers[i];
   auto doubtful = w.doubtful.begin();
   for (const std::int32_t block : blocks_.blocks_for(tree_, w.blocks[0], r, w.sight.sifted)) {
@@ -432,101 +412,6 @@ SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
         &SilhouetteCounts::second_rays})
     a.*member += b.*member;
   return a;
-}
-
-/// The tiles of an image, and for which passes they wait.
-class Tiles {
- public:
-  Tiles(const SurfaceBuffer& surface, const Progress& progress)
-      : columns_((surface.width + kTile - 1) / kTile),
-        waiting_(static_cast<std::size_t>(columns_ * ((surface.height + kTile - 1) / kTile)), 1u),
-        progress_(progress) {}
-
-  /// Tiles that wait for a pass; so few that it is cheaper to look for the edges that matter to them than for
-  /// all.
-  std::vector<int> waiting_for(int pass) const {
-    std::vector<int> out;
-    for (std::size_t i = 0; i < waiting_.size(); ++i)
-      if (waiting_[i] >> pass & 1) out.push_back(static_cast<int>(i));
-    return out;
-  }
-  bool are_few(const std::vector<int>& tiles) const { return tiles.size() <= waiting_.size() / kFewTiles; }
-  int column(int tile) const { return tile % columns_; }
-  int row(int tile) const { return tile / columns_; }
-
-  /// Runs `body(column, row, workspace)` for some tiles of a pass, reporting progress; it returns for which
-  /// passes they wait next. Throws Cancelled.
-  template <class Spaces, class Body>
-  void run(int pass, const std::vector<int>& tiles, const RayScene& rays, Spaces& spaces, const Body& body) {
-    std::atomic<bool> stop{false};
-    std::mutex reporting;
-    const auto finish = [&](std::uint32_t& waiting, std::uint32_t next) {
-      waiting = (waiting & ~(1u << pass)) | next;
-      if (waiting != 0) return;
-      const std::size_t finished = ++done_;
-      if (!progress_ || !reporting.try_lock()) return;
-      if (!progress_(static_cast<double>(finished) / static_cast<double>(waiting_.size()))) stop = true;
-      reporting.unlock();
-    };
-    rays.impl().arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
-        for (std::size_t i = range.begin(); i < range.end() && !stop; ++i)
-          finish(waiting_[static_cast<std::size_t>(tiles[i])],
-                 body(column(tiles[i]), row(tiles[i]), spaces.local()));
-      });
-    });
-    if (stop) throw Cancelled();
-  }
-
- private:
-  static constexpr std::size_t kFewTiles = 32;  // one in so many
-  int columns_;
-  std::vector<std::uint32_t> waiting_;  ///< passes as bits
-  const Progress& progress_;
-  std::atomic<std::size_t> done_{0};
-};
-
-/// Of the receivers of some tiles that wait for this pass, by parts that lie close together.
-std::vector<Region> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
-                               const ReceiverSource& source, const UnitLight& light, const RayFrame& frame) {
-  std::vector<Region> out;
-  std::vector<Receiver> receivers;
-  std::vector<std::uint32_t> undecided;
-  const auto add = [&](const auto& self, std::span<Receiver> part) -> void {
-    if (part.size() > kFewReceivers) {
-      const std::size_t middle = halve(part);
-      self(self, part.first(middle));
-      return self(self, part.subspan(middle));
-    }
-    Shaft shaft(part, 1.0);
-    shaft.tighten(part);
-    out.push_back(shaft.region(part, light, frame));
-  };
-  for (const int tile : some) {
-    source.collect(tiles.column(tile), tiles.row(tile), receivers, undecided);
-    std::erase_if(receivers, [&](const Receiver& r) { return passes.of[r.pixel] != passes.now; });
-    if (!receivers.empty()) add(add, receivers);
-  }
-  return out;
-}
-
-/// None but the last, where nothing is to be merged or a caster crosses the light's plane. Levels that leave
-/// most of the band's edges are no help.
-Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double moved,
-                   std::size_t pixels) {
-  Passes out;
-  if (!merged || merged->levels().empty() || !lit.all_in_front) return out;
-  const double most = kMostMerged * static_cast<double>(edges.size_of_band(lit.scene.light));
-  for (const MergedLevel& level : merged->levels() | std::views::reverse) {
-    const double in_radii = level.moved * lit.light.per_radius();
-    if (in_radii > moved) continue;
-    const std::size_t blocks = merged->blocks_of(level, lit.scene.light, lit.idle).size();
-    if (static_cast<double>(blocks * MergedBlock::kEdges) > most) break;
-    out.levels.push_back(&level);
-    out.moved.push_back(in_radii);
-  }
-  if (!out.levels.empty()) out.of.resize(pixels);
-  return out;
 }
 
 void trace_fallback(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,

@@ -4,6 +4,8 @@
 //
 //   silhouette_frame.h        casters → the silhouette band in the light's frame, by a hierarchy over their
 //                             edges that serves every light (scene_edges.h)
+//   silhouette_passes.h       the same with merged edges first, where casters are finer than a silhouette can
+//                             tell (merged_edges.h, face_patches.h)
 //   silhouette_gather.h       band, 8×8 receivers → the edges they may see across the disk, by a tree over
 //                             blocks of edges (silhouette_tree.h)
 //   silhouette_certificate.h  edges, receiver → segments across the disk; none: wholly lit or wholly in umbra
@@ -34,7 +36,7 @@ struct SilhouetteOptions {
                           ///< such that would have to look at more than some 8,000 edges are not tried
   double moved = 2e-3;    ///< how far silhouettes of merged faces may lie from the true ones, in light
                           ///< radii in the light's plane (merged_edges.h), 0 to 0.1; 0: no faces are
-                          ///< merged. Only for casters of 4,096 faces or more, and never for `integrate`
+                          ///< merged. Only for casters of 1,024 faces or more, and never for `integrate`
                           ///< false
   int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (none are known) or the offset
                                 ///< moves a receiver behind the light's plane; counted
@@ -57,8 +59,8 @@ struct SilhouetteCounts {
   std::size_t rays = 0, second_rays = 0;
   std::size_t fallback = 0;         ///< receivers left to rays, see fallback_samples
   std::size_t bytes = 0;            ///< of the band, its tree and all threads' lists at their longest
-  std::size_t hierarchy_bytes = 0;  ///< of the hierarchy over all edges of casters (scene_edges.h), made once
-                                    ///< a RayScene and in no stage
+  std::size_t hierarchy_bytes = 0;  ///< of the hierarchies over edges (scene_edges.h, merged_edges.h), made
+                                    ///< once a RayScene and in no stage
 };
 
 struct SilhouetteResult {

@@ -168,6 +168,20 @@ PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePl
   return std::abs(v) > off ? (v > 0.0 ? 1 : -1) : 0;
 }
 
+/// A box beside the cone from a receiver to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or below its
+/// tangent plane; by a margin of `slack` at the disk.
+PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const Receiver& receiver,
+                                double slack) {
+  const Vec3 &x = receiver.x, &n = receiver.normal;
+  const double per_z = 1.0 / x.z, t = middle.z * per_z;
+  const double across = x.x * x.x + x.y * x.y, steep = (std::sqrt(across) + 1.0) * per_z;
+  const double reach =
+      1.0 - t + std::sqrt(half.x * half.x + half.y * half.y) + half.z * steep + slack * (1.0 + steep);
+  const double dx = middle.x - t * x.x, dy = middle.y - t * x.y;
+  if (reach < 0.0 || dx * dx + dy * dy > reach * reach) return true;
+  return glm::dot(n, middle - x) + glm::dot(glm::abs(n), half) < -slack;
+}
+
 }  // namespace
 
 void gather_doubtful(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft,
@@ -180,12 +194,7 @@ void gather_doubtful(const Band& band, const std::vector<Siblings>& list, const 
     const int left = look_from(middle, half, e.left, s.left),
               right = look_from(middle, half, e.right, s.right);
     if (left != 0 && left == right) return false;
-    Bounds box;
-    for (const Vec3& end : {e.a, e.b}) box.add(Bounds{end - s.margin, end + s.margin});
-    for (const auto& [looks, side] : {std::pair{left, &s.left}, std::pair{right, &s.right}})
-      if (looks == 0 && !side->is_flat)
-        box.add(Bounds{side->center - side->radius, side->center + side->radius});
-    return !shaft.misses(box.low, box.high);
+    return !shaft.misses(s.middle - s.half, s.middle + s.half);
   };
   for_each_block(list, [&](std::size_t block) {
     const std::size_t first = block * kFloatLanes;
@@ -200,6 +209,7 @@ bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver
   const BandEdge& e = band.edges[i];
   const MergedSides& sides = band.sides[i];
   const Vec3& x = receiver.x;
+  if (is_outside(sides.middle, sides.half, receiver, slack)) return true;
   const int left = look_from(x, Vec3(0.0), e.left, sides.left),
             right = look_from(x, Vec3(0.0), e.right, sides.right);
   if (left != 0 && left == right) return true;

@@ -168,18 +168,19 @@ UnitLight::UnitLight(const DiskLight& light)
       up_(light.radius * axes_.v),
       per_radius_(1.0 / light.radius) {}
 
-LitScene::LitScene(const Scene& s, const UnitLight& l, double scale, std::span<const char> i)
-    : scene(s),
-      light(l),
-      idle(i),
-      depth(kLightOffset / scale * l.per_radius()),
-      boxes(s.objects.size()),
-      extent(extent_of(s, l)) {
-  for (std::size_t k = 0; k < boxes.size(); ++k) {
-    const SceneObject& object = s.objects[k];
-    if (!object.casts || object.mesh.empty() || (!i.empty() && i[k])) continue;
-    boxes[k] = box_in_frame(object.mesh.positions(), ToFrame{l});
-    all_in_front = all_in_front && FrontSide(depth)(boxes[k].low);
+LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, double scale,
+                   std::span<const char> are_idle)
+    : scene(lit_scene),
+      light(unit_light),
+      idle(are_idle),
+      depth(kLightOffset / scale * light.per_radius()),
+      boxes(scene.objects.size()),
+      extent(extent_of(scene, light)) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    if (!object.casts || object.mesh.empty() || (!idle.empty() && idle[i])) continue;
+    boxes[i] = box_in_frame(object.mesh.positions(), ToFrame{light});
+    all_in_front = all_in_front && FrontSide(depth)(boxes[i].low);
   }
 }
 
