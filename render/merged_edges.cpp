@@ -9,6 +9,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <span>
 
 #include "render/block_bounds.h"
 #include "render/kd_order.h"
@@ -132,7 +133,7 @@ class Merger {
     std::uint32_t count = 0, in = 0, out = 0;
   };
 
-  /// Chains between the same two sides become one, as far as the tolerance goes; those that close up stay.
+  /// Chains between the same two sides become one, as far as the tolerance goes.
   void join(const std::vector<Chain>& edges, double tolerance) {
     std::vector<Meeting> meetings(mesh_.positions().size());
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
@@ -148,39 +149,49 @@ class Merger {
     };
     chains_.clear();
     std::vector<char> done(edges.size(), 0);
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      if (goes_on(edges[i].from)) continue;
-      Chain chain = edges[i];
-      done[i] = 1;
-      std::vector<std::uint32_t> passed;  // vertices that the chain leaves out
-      const auto finish = [&] {
-        double stray = 0.0;
-        for (const std::uint32_t v : passed) stray = std::max(stray, distance_from(v, chain));
-        chain.stray += stray;
-        chains_.push_back(chain);
-        passed.clear();
-      };
-      while (goes_on(chain.to)) {
-        const std::uint32_t next = meetings[chain.to].out - 1;
-        const Chain& more = edges[next];
+    const auto follow = [&](std::uint32_t first) {
+      std::vector<const Chain*> way{&edges[first]};
+      done[first] = 1;
+      while (goes_on(way.back()->to)) {
+        const std::uint32_t next = meetings[way.back()->to].out - 1;
+        if (done[next]) break;  // it closes up
         done[next] = 1;
-        const Vec3 start = position(chain.from), middle = position(chain.to);
-        const Vec3 swept =
-            chain.swept + more.swept + 0.5 * glm::cross(middle - start, position(more.to) - start);
-        if (swept_width(chain.left, chain.right, swept, chain.from, more.to) <= tolerance) {
-          passed.push_back(chain.to);
-          chain.swept = swept;
-          chain.to = more.to;
-          chain.stray = std::max(chain.stray, more.stray);
-        } else {
-          finish();
-          chain = more;
-        }
+        way.push_back(&edges[next]);
       }
-      finish();
-    }
+      straighten(way, tolerance);
+    };
     for (std::uint32_t i = 0; i < edges.size(); ++i)
-      if (!done[i]) chains_.push_back(edges[i]);
+      if (!goes_on(edges[i].from)) follow(i);
+    for (std::uint32_t i = 0; i < edges.size(); ++i)
+      if (!done[i]) follow(i);
+  }
+
+  /// Edges that follow on each other, as few as the tolerance allows.
+  void straighten(const std::vector<const Chain*>& way, double tolerance) {
+    Chain chain = *way.front();
+    std::vector<std::uint32_t> passed;  // vertices that it leaves out
+    const auto finish = [&] {
+      double stray = 0.0;
+      for (const std::uint32_t v : passed) stray = std::max(stray, distance_from(v, chain));
+      chain.stray += stray;
+      chains_.push_back(chain);
+      passed.clear();
+    };
+    for (const Chain* more : std::span(way).subspan(1)) {
+      const Vec3 start = position(chain.from), middle = position(chain.to);
+      const Vec3 swept =
+          chain.swept + more->swept + 0.5 * glm::cross(middle - start, position(more->to) - start);
+      if (swept_width(chain.left, chain.right, swept, chain.from, more->to) <= tolerance) {
+        passed.push_back(chain.to);
+        chain.swept = swept;
+        chain.to = more->to;
+        chain.stray = std::max(chain.stray, more->stray);
+      } else {
+        finish();
+        chain = *more;
+      }
+    }
+    finish();
   }
 
   const TriangleMesh& mesh_;

@@ -197,6 +197,15 @@ TEST(MergedEdges, CloseUpAsTheSurfaceDid) {
   EXPECT_GE(levels, 8u);
 }
 
+/// A sheet's boundary closes up without a vertex that it has to begin at.
+TEST(MergedEdges, OfASheetAreItsSides) {
+  const Scene scene = scene_of(cut(testing::rectangle(-1, 1, -1, 2, 0.5), 5));
+  const MergedEdges merged = merged_edges_of(scene);
+  ASSERT_FALSE(merged.levels().empty());
+  EXPECT_LE(merged.levels()[0].edges.size(), 5u) << "of 128";
+  EXPECT_EQ(merged.levels()[0].moved, 0.0);
+}
+
 TEST(MergedEdges, LeaveFewEdgesOfFineSurfaces) {
   const Scene scene = scene_of(make_icosphere({0, 0, 0}, 1.0, 7));
   const MergedEdges merged = merged_edges_of(scene);
