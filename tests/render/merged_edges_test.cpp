@@ -320,6 +320,58 @@ TEST(MergedFaces, AreNotMistakenWhereCastersCrossTheLightsPlane) {
   EXPECT_EQ(d.most, 0.0);
 }
 
+/// On the way from light into penumbra, where the certificate only just holds, no true edge is across the
+/// disk.
+TEST(MergedFaces, CertificatesHoldToTheLast) {
+  Random random(76);
+  std::size_t checked = 0;
+  for (const auto& [name, mesh] : meshes(6)) {
+    const Scene scene = scene_of(mesh);
+    const RayFrame frame = ray_frame(scene);
+    const UnitLight light(scene.light);
+    const LitScene lit(scene, light, frame.scale);
+    const Band exact = make_band(lit, SceneEdges(scene, frame.origin, frame.scale));
+    const double slack = certificate_slack(lit.extent);
+    const MergedEdges merged = merged_edges_of(scene);
+    for (const MergedLevel& level : merged.levels()) {
+      const Band band = make_merged_band(lit, merged, level);
+      const auto receiver_at = [&](const Vec3& world) {
+        Receiver r;
+        r.x = light.point(world), r.normal = Vec3(0, 0, -1), r.horizon = no_horizon();
+        return r;
+      };
+      const auto is_certain = [&](const Vec3& world) {
+        const Receiver r = receiver_at(world);
+        for (std::size_t i = 0; i < band.edges.size(); ++i)
+          if (!is_certainly_none(band, i, r, slack)) return false;
+        return true;
+      };
+      const Vec3 middle = scene.bounds().center();
+      const double size = scene.bounds().radius();
+      for (int k = 0; k < 12; ++k) {
+        const glm::dvec2 way = random.unit2();
+        const double depth = random.uniform(1.5, 4.0) * size;
+        const auto at = [&](double t) { return middle + Vec3(t * size * way, -depth); };
+        double inside = 8.0;
+        while (inside > 0.0 && is_certain(at(inside))) inside -= 0.05;
+        double outside = inside + 0.05;
+        if (inside <= 0.0 || outside >= 8.0) continue;
+        for (int step = 0; step < 40; ++step) {
+          const double half = 0.5 * (inside + outside);
+          (is_certain(at(half)) ? outside : inside) = half;
+        }
+        const Receiver r = receiver_at(at(outside));
+        ++checked;
+        for (const BandEdge& e : exact.edges) {
+          const Projection p = see(e, r.x, 0.0);
+          ASSERT_FALSE(p.near && p.segment.jump != 0) << name << ", level of " << level.edges.size();
+        }
+      }
+    }
+  }
+  EXPECT_GT(checked, 100u);
+}
+
 /// What few tiles ask for: every edge that one of their receivers sees across the disk.
 TEST(SceneEdges, LoseNothingThatAReceiverSees) {
   Random random(75);
