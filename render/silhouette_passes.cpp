@@ -1,7 +1,5 @@
 #include "render/silhouette_passes.h"
 
-#include <ranges>
-
 namespace penumbra::detail {
 namespace {
 
@@ -17,7 +15,8 @@ Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdg
   Passes out;
   if (!merged || merged->levels().empty() || !lit.all_in_front) return out;
   const auto size = static_cast<double>(edges.size_of_band(lit.scene.light));
-  for (const MergedLevel& level : merged->levels() | std::views::reverse) {
+  for (auto at = merged->levels().rbegin(); at != merged->levels().rend(); ++at) {  // coarsest first
+    const MergedLevel& level = *at;
     const double in_radii = level.moved * lit.light.per_radius();
     if (in_radii > moved) continue;
     const std::size_t blocks = merged->blocks_of(level, lit.scene.light, lit.idle).size();
