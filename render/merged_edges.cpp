@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <glm/common.hpp>
-#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <span>
 
 #include "render/block_bounds.h"
 #include "render/kd_order.h"
+#include "render/scene_edges.h"
 #include "volumes/detail/vectors.h"
 
 namespace penumbra::detail {
@@ -336,27 +335,19 @@ MergedEdges::MergedEdges(const Scene& scene, const Vec3& origin, double scale)
 
 std::vector<std::uint32_t> MergedEdges::blocks_of(const MergedLevel& level, const DiskLight& light,
                                                   std::span<const char> idle) const {
-  const Vec3 center = (light.center - origin_) * scale_, normal = unit(light.normal);
-  const double radius = light.radius * scale_;
-  // The light may lie farther out than it did when the frame was made.
-  const double extent = std::max(1.0, largest_component(center) + radius);
-  const Vec3 half = radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - normal * normal));
   std::vector<Siblings> parents;
-  level.tree.gather(SidesTest(center, half + kBoundsGrain * extent), parents);
+  level.tree.gather(SidesTest(FloatDisk(light, origin_, scale_).box), parents);
   std::vector<std::uint32_t> out;
-  const auto casts = [&](std::uint32_t block) {
+  const auto casts = [&](std::size_t block) {
     const std::size_t first = block * MergedBlock::kEdges;
     const std::size_t last = std::min(first + MergedBlock::kEdges, level.edges.size());
     for (std::size_t i = first; i < last; ++i)
       if (idle.empty() || !idle[level.edges[i].object]) return true;
     return false;
   };
-  for (const Siblings& s : parents)
-    for (std::uint32_t bits = s.kept; bits != 0; bits &= bits - 1) {
-      const std::uint32_t block =
-          s.parent * static_cast<std::uint32_t>(kLanes) + static_cast<std::uint32_t>(std::countr_zero(bits));
-      if (block < level.block_count() && casts(block)) out.push_back(block);
-    }
+  for_each_block(parents, [&](std::size_t block) {
+    if (block < level.block_count() && casts(block)) out.push_back(static_cast<std::uint32_t>(block));
+  });
   return out;
 }
 

@@ -59,7 +59,6 @@ class Region {
     FloatBox box_, normals_;
   };
   void add_receiver(const Vec3& at, const Vec3& normal) { points_.emplace_back(at, normal); }
-  /// 32 at most.
   const std::vector<Point>& receivers() const { return points_; }
 
  private:

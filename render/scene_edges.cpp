@@ -72,12 +72,19 @@ std::uint32_t may_be_in_band(const EdgePlanes& planes, const FloatDisk& disk) {
   return bits_of(~((left == right) & (left != 0)));
 }
 
-PENUMBRA_VECTOR_CLONES
-std::uint32_t edges_to_look_at(const EdgePlanes& planes, const FloatBox& receivers) {
-  return may_be_silhouettes(planes, receivers);
-}
-
 }  // namespace
+
+FloatDisk::FloatDisk(const DiskLight& light, const Vec3& origin, double scale) {
+  const Vec3 center = (light.center - origin) * scale, unit_normal = unit(light.normal);
+  const double radius = light.radius * scale;
+  // The light may lie farther out than it did when the frame was made.
+  const double extent = std::max(1.0, largest_component(center) + radius);
+  const Vec3 half = radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - unit_normal * unit_normal));
+  box = FloatBox(center, half + kBoundsGrain * extent);
+  normal = FloatBox(unit_normal, half).middle;
+  radius2 = static_cast<float>(radius * radius);
+  margin = static_cast<float>(0x1p-18 * extent);
+}
 
 SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
     : origin_(origin),
@@ -108,16 +115,6 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
   tree_ = BoundsTree(std::move(bounds), 1.0);
 }
 
-FloatDisk SceneEdges::disk_of(const DiskLight& light) const {
-  const Vec3 center = (light.center - origin_) * scale_, normal = unit(light.normal);
-  const double radius = light.radius * scale_;
-  // The light may lie farther out than it did when the frame was made.
-  const double extent = std::max(1.0, largest_component(center) + radius);
-  const Vec3 half = radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - normal * normal));
-  return {FloatBox(center, half + kBoundsGrain * extent), FloatBox(normal, half).middle,
-          static_cast<float>(radius * radius), static_cast<float>(0x1p-18 * extent)};
-}
-
 void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
                            std::vector<SceneEdge>& out) const {
   for (; edges != 0; edges &= edges - 1) {
@@ -127,7 +124,7 @@ void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<con
 }
 
 std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<const char> idle) const {
-  const FloatDisk disk = disk_of(light);
+  const FloatDisk disk(light, origin_, scale_);
   std::vector<Siblings> parents;
   tree_.gather(SidesTest(disk.box), parents);
   constexpr std::size_t kRun = 256;
@@ -144,7 +141,7 @@ std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<con
 }
 
 std::size_t SceneEdges::size_of_band(const DiskLight& light) const {
-  return tree_.count_at_most(SidesTest(disk_of(light).box)) * kLanes;
+  return tree_.count_at_most(SidesTest(FloatDisk(light, origin_, scale_).box)) * kLanes;
 }
 
 /// What a region's receivers have to look at. Which edges have their faces on both sides of a receiver is
@@ -164,7 +161,7 @@ void SceneEdges::mark_needed(const Region& region, const Scene& scene,
       for_each_block(std::array{Siblings{s.parent, kept_by(region.receivers()[r], tree_.blocks(), s)}},
                      [&](std::size_t block) {
                        const std::uint32_t lanes =
-                           edges_to_look_at(planes_[block], region.receivers()[r].box());
+                           may_be_silhouettes(planes_[block], region.receivers()[r].box());
                        if (lanes != 0) questions.push_back({block, r, lanes});
                      });
   const auto for_each_edge = [&](const auto& visit) {
@@ -195,7 +192,7 @@ std::vector<SceneEdge> SceneEdges::band_for(std::span<const Region> regions, con
   std::vector<std::atomic<std::uint8_t>> needed(planes_.size());
   tbb::parallel_for(std::size_t{0}, regions.size(),
                     [&](std::size_t i) { mark_needed(regions[i], scene, needed); });
-  const FloatDisk disk = disk_of(light);
+  const FloatDisk disk(light, origin_, scale_);
   std::vector<SceneEdge> out;
   for (std::size_t block = 0; block < needed.size(); ++block)
     if (needed[block] != 0) add_block(block, needed[block] & may_be_in_band(planes_[block], disk), idle, out);

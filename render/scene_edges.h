@@ -31,6 +31,8 @@ struct SceneEdge {
 
 /// A light in float, in the frame of the edges.
 struct FloatDisk {
+  /// In the frame (p - origin) · scale.
+  FloatDisk(const DiskLight& light, const Vec3& origin, double scale);
   FloatBox box;
   std::array<float, 3> normal;
   float radius2, margin;
@@ -56,7 +58,6 @@ class SceneEdges {
  private:
   void mark_needed(const Region& region, const Scene& scene,
                    std::vector<std::atomic<std::uint8_t>>& needed) const;
-  FloatDisk disk_of(const DiskLight& light) const;
   /// Some edges of a block, bit by bit, but for those of idle objects.
   void add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
                  std::vector<SceneEdge>& out) const;

@@ -31,11 +31,6 @@ PENUMBRA_INLINE void jumps_of(const EdgePlanes& b, const FloatPoint& p, Ints& ou
   out = sure ? jump : unsure;
 }
 
-PENUMBRA_VECTOR_CLONES
-std::uint32_t edges_to_look_at(const EdgePlanes& block, const FloatBox& receivers) {
-  return may_be_silhouettes(block, receivers);
-}
-
 constexpr Ints kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 
 /// Blocks that are not dropped.
@@ -89,15 +84,13 @@ void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
                         std::vector<std::uint32_t>& out) const {
   out.clear();
   const FloatBox receivers(shaft.middle(), shaft.half());
-  for (const Siblings& s : list)
-    for (std::uint32_t kept = s.kept; kept != 0; kept &= kept - 1) {
-      const auto block = s.parent * kFloatLanes + static_cast<std::uint32_t>(std::countr_zero(kept));
-      for (std::uint32_t edges = edges_to_look_at(blocks_[block], receivers); edges != 0;
-           edges &= edges - 1) {
-        const std::uint32_t i = block * kFloatLanes + static_cast<std::uint32_t>(std::countr_zero(edges));
-        if (!shaft.misses(band_.edges[i])) out.push_back(i);
-      }
+  for_each_block(list, [&](std::size_t block) {
+    for (std::uint32_t edges = may_be_silhouettes(blocks_[block], receivers); edges != 0;
+         edges &= edges - 1) {
+      const std::size_t i = block * kFloatLanes + static_cast<std::size_t>(std::countr_zero(edges));
+      if (!shaft.misses(band_.edges[i])) out.push_back(static_cast<std::uint32_t>(i));
     }
+  });
 }
 
 std::span<const std::int32_t> EdgeBlocks::blocks_for(const BandTree& tree, const std::vector<Siblings>& list,
