@@ -75,14 +75,16 @@ PENUMBRA_INLINE Ints are_below(const Children& c, const FloatBox& receivers, con
   return highest < lowest;
 }
 
-/// The same for one receiver by the planes of the blocks' faces, which is closer where a block lies along the
-/// surface: a corner p of a face with normal n and a value v at the box's middle m has n·(p - m) = -v.
-PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receiver, const FloatBox& normal,
+/// The same by the planes of the blocks' faces, which is closer where a block lies along the surface and the
+/// normals differ little: a corner p of a face with normal n and a value v at the box's middle m has n·(p -
+/// m) = -v.
+PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receivers, const FloatBox& normals,
                                float lowest) {
   Floats highest = c.value_half - c.value;
   for (int k = 0; k < 3; ++k) {
-    const Floats apart = magnitude(normal.middle[k] - c.normal[k]) + c.normal_half[k] + normal.half[k];
-    highest += normal.middle[k] * (c.middle[k] - receiver.middle[k]) + apart * c.half[k];
+    const Floats d = c.middle[k] - receivers.middle[k];
+    const Floats apart = magnitude(normals.middle[k] - c.normal[k]) + c.normal_half[k] + normals.half[k];
+    highest += normals.middle[k] * d + normals.half[k] * magnitude(d) + apart * c.half[k];
   }
   return highest < lowest;
 }

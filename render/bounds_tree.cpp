@@ -104,7 +104,7 @@ BlockBounds bounds_of_edges(const BandEdge* first, const BandEdge* last) {
 BoundsTree::BoundsTree(std::vector<BlockBounds> nodes, double extent) : extent_(extent) {
   while (!nodes.empty()) {
     std::vector<BlockBounds> above((nodes.size() + kFanOut - 1) / kFanOut);
-    std::vector<Children> level(above.size());
+    LargeArray<Children> level(above.size());
     for_each_group(nodes, [&](const BlockBounds* first, const BlockBounds* last, std::size_t group) {
       level[group] = packed(first, last, extent);
       above[group] = joined(first, last);

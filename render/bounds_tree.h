@@ -12,6 +12,7 @@
 
 #include "render/band_edge.h"
 #include "render/block_bounds.h"
+#include "render/large_array.h"
 
 namespace penumbra::detail {
 
@@ -88,7 +89,7 @@ class BoundsTree {
 
   double extent_ = 1.0;
   Bounds box_;
-  std::vector<std::vector<Children>> levels_;  ///< blocks first
+  std::vector<LargeArray<Children>> levels_;  ///< blocks first
 };
 
 template <class Test>

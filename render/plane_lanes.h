@@ -37,9 +37,47 @@ struct EdgePlanes {
   }
 };
 
+/// A point in two floats a coordinate: its difference to a float nearby is as exact as floats are.
+struct SplitPoint {
+  explicit SplitPoint(const Vec3& p) {
+    for (int k = 0; k < 3; ++k) {
+      high[k] = static_cast<float>(p[k]);
+      low[k] = static_cast<float>(p[k] - static_cast<double>(high[k]));
+    }
+  }
+  std::array<float, 3> high, low;
+};
+
+/// The same planes with coordinates that start in the edges' midst: for points nearby sides are certain
+/// beyond 2^-20 of their distance, instead of that of the whole scene's size.
+struct LocalPlanes {
+  EdgePlanes planes;
+  std::array<float, 3> origin;
+
+  void set(std::size_t lane, BandEdge edge) {
+    for (FacePlane* plane : {&edge.left, &edge.right}) {
+      const double shift =
+          plane->normal.x * origin[0] + plane->normal.y * origin[1] + plane->normal.z * origin[2];
+      plane->offset += shift;
+      if (plane->tolerance >= 0.0) plane->tolerance += kRounding;
+    }
+    planes.set(lane, edge, 0.0);
+  }
+  std::array<float, 3> from_origin(const SplitPoint& p) const {
+    std::array<float, 3> out;
+    for (int k = 0; k < 3; ++k) out[k] = (p.high[k] - origin[k]) + p.low[k];
+    return out;
+  }
+
+ private:
+  static constexpr double kRounding = 0x1p-36;  // of doubles, even with the light far outside of the scene
+};
+
+/// As below, for one receiver.
+std::uint32_t may_be_silhouettes(const LocalPlanes& block, const SplitPoint& receiver);
+
 /// Bit i is clear where both faces of edge i keep one side over a box of receivers, the same: then it is not
-/// on the silhouette for any of them. Compiled for several
-/// instruction sets with the same result.
+/// on the silhouette for any of them. Compiled for several instruction sets with the same result.
 std::uint32_t may_be_silhouettes(const EdgePlanes& block, const FloatBox& receivers);
 
 }  // namespace penumbra::detail

@@ -4,9 +4,11 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 #include "render/bounds_tree.h"
+#include "render/plane_lanes.h"
 
 namespace penumbra::detail {
 
@@ -30,21 +32,24 @@ class Region {
   void add_horizon(const Vec3& middle, const Vec3& half, double lowest) {
     normals_ = FloatBox(middle, half + kBoundsGrain);
     lowest_ = static_cast<float>(lowest - 4.0 * kBoundsGrain);
-    has_horizon_ = true;
   }
   /// Bit i is set for block i.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
     Ints out = are_one_sided(c, receivers_);
     for (const FloatPlane& p : planes_) out |= p.has_outside(c);
-    if (has_horizon_) out |= are_below(c, receivers_, normals_, lowest_);
-    return bits_of(out);
+    return bits_of(out | are_below(c, receivers_, normals_, lowest_) |
+                   are_under(c, receivers_, normals_, lowest_));
   }
   /// The receivers themselves.
   class Point {
    public:
     Point(const Vec3& at, const Vec3& normal)
-        : at_(at), normal_(normal), box_(at, Vec3(kPointGrain)), normals_(normal, Vec3(kPointGrain)) {}
-    const FloatBox& box() const { return box_; }
+        : at_(at),
+          normal_(normal),
+          split_(at),
+          box_(at, Vec3(kPointGrain)),
+          normals_(normal, Vec3(kPointGrain)) {}
+    const SplitPoint& at() const { return split_; }
     bool is_below(const Vec3& p) const { return glm::dot(normal_, p - at_) < -0x1p-44; }
     /// Bit i is set for block i: one-sided, or below the tangent plane.
     PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
@@ -56,6 +61,7 @@ class Region {
    private:
     static constexpr float kPointGrain = 0x1p-23f;
     Vec3 at_, normal_;
+    SplitPoint split_;
     FloatBox box_, normals_;
   };
   void add_receiver(const Vec3& at, const Vec3& normal) { points_.emplace_back(at, normal); }
@@ -63,8 +69,7 @@ class Region {
 
  private:
   FloatBox normals_;
-  bool has_horizon_ = false;
-  float lowest_ = 0.0f;
+  float lowest_ = -std::numeric_limits<float>::infinity();
   std::array<FloatPlane, kPlanes> planes_;
   FloatBox receivers_;
   std::vector<Point> points_;

@@ -50,8 +50,8 @@ LargeArray<SceneEdge> neighbours_together(LargeArray<Placed> edges) {
 
 /// 1 or -1 where all of the disk is in front of a plane or behind it, 0 where that is not certain: a plane
 /// with unit normal n is at most radius · √(1 - (n·normal)²) farther from some point than from the center.
-PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, Ints& out) {
-  const auto& c = disk.box.middle;
+PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, const std::array<float, 3>& c,
+                                Ints& out) {
   const auto& m = disk.normal;
   const Floats value = plane.x * c[0] + plane.y * c[1] + plane.z * c[2] + plane.offset;
   const Floats along = plane.x * m[0] + plane.y * m[1] + plane.z * m[2];
@@ -65,22 +65,24 @@ PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, 
 
 /// Bit i is clear where both faces of edge i have all of the disk on one side, the same.
 PENUMBRA_VECTOR_CLONES
-std::uint32_t may_be_in_band(const EdgePlanes& planes, const FloatDisk& disk) {
+std::uint32_t may_be_in_band(const LocalPlanes& block, const FloatDisk& disk) {
+  const std::array<float, 3> center = block.from_origin(disk.center);
   Ints left, right;
-  sides_over(planes.left, disk, left);
-  sides_over(planes.right, disk, right);
+  sides_over(block.planes.left, disk, center, left);
+  sides_over(block.planes.right, disk, center, right);
   return bits_of(~((left == right) & (left != 0)));
 }
 
 }  // namespace
 
-FloatDisk::FloatDisk(const DiskLight& light, const Vec3& origin, double scale) {
-  const Vec3 center = (light.center - origin) * scale, unit_normal = unit(light.normal);
+FloatDisk::FloatDisk(const DiskLight& light, const Vec3& origin, double scale)
+    : center((light.center - origin) * scale) {
+  const Vec3 middle = (light.center - origin) * scale, unit_normal = unit(light.normal);
   const double radius = light.radius * scale;
   // The light may lie farther out than it did when the frame was made.
-  const double extent = std::max(1.0, largest_component(center) + radius);
+  const double extent = std::max(1.0, largest_component(middle) + radius);
   const Vec3 half = radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - unit_normal * unit_normal));
-  box = FloatBox(center, half + kBoundsGrain * extent);
+  box = FloatBox(middle, half + kBoundsGrain * extent);
   normal = FloatBox(unit_normal, half).middle;
   radius2 = static_cast<float>(radius * radius);
   margin = static_cast<float>(0x1p-18 * extent);
@@ -97,22 +99,23 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
   std::vector<BlockBounds> bounds(planes_.size());
   const auto fill = [&](std::size_t block) {
     std::array<BandEdge, kLanes> edges;
-    const std::size_t count = std::min(kLanes, edges_.size() - block * kLanes);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      if (lane >= count) {
-        planes_[block].set_idle(lane);
-        continue;
-      }
-      const SceneEdge& e = edges_[block * kLanes + lane];
+    const std::size_t first = block * kLanes, count = std::min(kLanes, edges_.size() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const SceneEdge& e = edges_[first + lane];
       edges[lane] = meshes[e.object].edge(e.id, to_frame, 1.0);
-      planes_[block].set(lane, edges[lane], 1.0);
     }
+    LocalPlanes& planes = planes_[block];
+    planes.origin = FloatBox(edges[0].a, Vec3(0.0)).middle;
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      lane < count ? planes.set(lane, edges[lane]) : planes.planes.set_idle(lane);
     bounds[block] = bounds_of_edges(edges.data(), edges.data() + count);
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planes_.size(), 256), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i) fill(i);
   });
   tree_ = BoundsTree(std::move(bounds), 1.0);
+  for (const SceneObject& o : scene.objects)
+    points_.push_back(o.casts ? PointGroups(o.mesh.positions()) : PointGroups());
 }
 
 void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
@@ -161,7 +164,7 @@ void SceneEdges::mark_needed(const Region& region, const Scene& scene,
       for_each_block(std::array{Siblings{s.parent, kept_by(region.receivers()[r], tree_.blocks(), s)}},
                      [&](std::size_t block) {
                        const std::uint32_t lanes =
-                           may_be_silhouettes(planes_[block], region.receivers()[r].box());
+                           may_be_silhouettes(planes_[block], region.receivers()[r].at());
                        if (lanes != 0) questions.push_back({block, r, lanes});
                      });
   const auto for_each_edge = [&](const auto& visit) {
@@ -200,7 +203,7 @@ std::vector<SceneEdge> SceneEdges::band_for(std::span<const Region> regions, con
 }
 
 std::size_t SceneEdges::bytes() const {
-  return edges_.size() * sizeof(SceneEdge) + planes_.size() * sizeof(EdgePlanes) + tree_.bytes();
+  return edges_.size() * sizeof(SceneEdge) + planes_.size() * sizeof(LocalPlanes) + tree_.bytes();
 }
 
 }  // namespace penumbra::detail

@@ -19,6 +19,7 @@
 #include "render/bounds_tree.h"
 #include "render/large_array.h"
 #include "render/plane_lanes.h"
+#include "render/point_groups.h"
 #include "render/region.h"
 #include "render/scene.h"
 
@@ -34,6 +35,7 @@ struct FloatDisk {
   /// In the frame (p - origin) · scale.
   FloatDisk(const DiskLight& light, const Vec3& origin, double scale);
   FloatBox box;
+  SplitPoint center;
   std::array<float, 3> normal;
   float radius2, margin;
 };
@@ -52,6 +54,8 @@ class SceneEdges {
   std::vector<SceneEdge> band_for(std::span<const Region> regions, const Scene& scene, const DiskLight& light,
                                   std::span<const char> idle) const;
   std::size_t size() const { return edges_.size(); }
+  /// Of one object that casts, by its index in the scene.
+  const PointGroups& points(std::size_t object) const { return points_[object]; }
   double scale() const { return scale_; }
   std::size_t bytes() const;
 
@@ -65,8 +69,9 @@ class SceneEdges {
   Vec3 origin_;
   double scale_;
   LargeArray<SceneEdge> edges_;
-  LargeArray<EdgePlanes> planes_;  ///< of eight edges each
+  LargeArray<LocalPlanes> planes_;  ///< of eight edges each
   BoundsTree tree_;
+  std::vector<PointGroups> points_;
 };
 
 }  // namespace penumbra::detail

@@ -93,18 +93,12 @@ void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
   });
 }
 
-std::span<const std::int32_t> EdgeBlocks::blocks_for(const BandTree& tree, const std::vector<Siblings>& list,
-                                                     const Receiver& receiver, Sifted& scratch) const {
-  auto& blocks = scratch.blocks;
-  blocks.resize(std::max(blocks.size(), (list.size() + 1) * kFloatLanes));
-  const ConeTest cone(receiver, tree.extent());
-  return {blocks.data(), keep_blocks(tree.blocks(), list.data(), list.size(), cone, blocks.data())};
-}
-
 bool EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
                       std::size_t most, Sifted& out) const {
   const auto at_least = [](auto& buffer, std::size_t size) { buffer.resize(std::max(buffer.size(), size)); };
-  out.looked_into = blocks_for(tree, list, receiver, out).size();
+  at_least(out.blocks, (list.size() + 1) * kFloatLanes);
+  out.looked_into = keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
+                                out.blocks.data());
   if (out.looked_into > most) return false;
   at_least(out.places, (out.looked_into + 1) * kFloatLanes);
   at_least(out.jumps, out.places.size());

@@ -29,9 +29,6 @@ class EdgeBlocks {
   /// for several instruction sets with the same result.
   bool sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
             std::size_t most, Sifted& out) const;
-  /// Of the list's blocks those that would be looked into, ascending; they stay in `scratch`.
-  std::span<const std::int32_t> blocks_for(const BandTree& tree, const std::vector<Siblings>& list,
-                                           const Receiver& receiver, Sifted& scratch) const;
   std::size_t count() const { return blocks_.size(); }
   /// Of edge `i`, 0: dismissed, else its jump. Tests compare with it.
   int sift_one(std::size_t i, const Vec3& x) const;

@@ -24,9 +24,9 @@ class ShaftTest {
     }
     has_horizon_ = shaft.has_horizon();
     if (!has_horizon_) return;
-    const Vec3 low = shaft.normal_low(), high = shaft.normal_high();
+    const auto& [low, high, lowest] = shaft.horizons();
     normals_ = FloatBox(0.5 * (low + high), 0.5 * (high - low));
-    lowest_ = static_cast<float>(shaft.lowest() - margin);
+    lowest_ = static_cast<float>(lowest - margin);
   }
   /// Bit i is set for block i.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {

@@ -15,7 +15,6 @@ namespace penumbra::detail {
 namespace {
 
 constexpr double kHair = 0x1p-23;
-constexpr double kStraight = 1e-3;    // of the certificate's slack, a margin that it covers
 constexpr std::size_t kFewEdges = 6;  // one by one: vectors would not be filled
 
 /// How a projected edge lies; the numbers are in the order in which they are looked for.
@@ -153,81 +152,6 @@ Projection see(const BandEdge& e, const Vec3& x, double slack) {
   return {{pa, pb, jump},
           comes_near(glm::dot(pa, pa), glm::dot(pb, pb), glm::dot(s, s), glm::dot(pa, s),
                      pa.x * s.y - pa.y * s.x, reach * reach)};
-}
-
-namespace {
-
-/// 1 for an edge's side of which only fronts are seen from a box of receivers, -1 only backs, 0 where that is
-/// not certain.
-PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePlane& plane,
-                              const MergedSides::Side& side) {
-  if (plane.tolerance < 0.0) return 0;
-  const double v = plane.value(middle);
-  const double off = plane.tolerance + side.reach(middle) + glm::dot(glm::abs(plane.normal), half) +
-                     (half == Vec3(0.0) ? 0.0 : side.tilt * glm::length(half));
-  return std::abs(v) > off ? (v > 0.0 ? 1 : -1) : 0;
-}
-
-/// A box beside the cone from a receiver to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or below its
-/// tangent plane; by a margin of `slack` at the disk.
-PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const Receiver& receiver,
-                                double slack) {
-  const Vec3 &x = receiver.x, &n = receiver.normal;
-  const double per_z = 1.0 / x.z, t = middle.z * per_z;
-  const double across = x.x * x.x + x.y * x.y, steep = (std::sqrt(across) + 1.0) * per_z;
-  const double reach =
-      1.0 - t + std::sqrt(half.x * half.x + half.y * half.y) + half.z * steep + slack * (1.0 + steep);
-  const double dx = middle.x - t * x.x, dy = middle.y - t * x.y;
-  if (reach < 0.0 || dx * dx + dy * dy > reach * reach) return true;
-  return glm::dot(n, middle - x) + glm::dot(glm::abs(n), half) < -slack;
-}
-
-}  // namespace
-
-void gather_doubtful(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft,
-                     std::vector<EdgesOfBlock>& out) {
-  out.clear();
-  const Vec3 &middle = shaft.middle(), &half = shaft.half();
-  const auto is_doubtful = [&](std::size_t i) {
-    const BandEdge& e = band.edges[i];
-    const MergedSides& s = band.sides[i];
-    const int left = look_from(middle, half, e.left, s.left),
-              right = look_from(middle, half, e.right, s.right);
-    if (left != 0 && left == right) return false;
-    return !shaft.misses(s.middle - s.half, s.middle + s.half);
-  };
-  for_each_block(list, [&](std::size_t block) {
-    const std::size_t first = block * kFloatLanes;
-    EdgesOfBlock doubtful{static_cast<std::int32_t>(block), 0};
-    for (std::size_t i = first; i < std::min(first + kFloatLanes, band.edges.size()); ++i)
-      if (is_doubtful(i)) doubtful.edges |= 1u << (i - first);
-    if (doubtful.edges != 0) out.push_back(doubtful);
-  });
-}
-
-bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver, double slack) {
-  const BandEdge& e = band.edges[i];
-  const MergedSides& sides = band.sides[i];
-  const Vec3& x = receiver.x;
-  if (is_outside(sides.middle, sides.half, receiver, slack)) return true;
-  const int left = look_from(x, Vec3(0.0), e.left, sides.left),
-            right = look_from(x, Vec3(0.0), e.right, sides.right);
-  if (left != 0 && left == right) return true;
-  const auto is_below = [&](const Vec3& p, double margin) {
-    return glm::dot(receiver.normal, p - x) < -margin;
-  };
-  for (const auto& [looks, side] : {std::pair{left, &sides.left}, std::pair{right, &sides.right}})
-    if (looks == 0 && !side->is_flat && !side->is_far(x) && !is_below(side->center, side->radius))
-      return false;
-  if (is_below(e.a, sides.margin + slack) && is_below(e.b, sides.margin + slack)) return true;
-  if (sides.margin <= slack * kStraight) return !see(e, x, slack).near;
-  if (std::min(e.a.z, e.b.z) - sides.margin > x.z) return true;
-  // What is seen of it lies within its margin: as if it were an edge of one face, and the disk wider.
-  const double below = x.z - std::max(e.a.z, e.b.z) - sides.margin;
-  if (!(below > 0.0)) return false;
-  const double steep = (glm::length(glm::dvec2(x)) + 1.0) / x.z;
-  const FacePlane unknown{Vec3(0.0), 0.0, std::numeric_limits<double>::infinity()};
-  return !see({e.a, e.b, unknown, unknown}, x, slack + sides.margin * (1.0 + steep) * x.z / below).near;
 }
 
 void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {

@@ -40,19 +40,6 @@ Projection see(const BandEdge& edge, const Vec3& x, double slack);
 
 double certificate_slack(double extent);
 
-/// Some edges of a block, by bits.
-struct EdgesOfBlock {
-  std::int32_t block;
-  std::uint32_t edges;
-};
-/// Of a list of blocks of a band of merged edges those edges that may stand for a silhouette across the disk
-/// (merged_edges.h) for some receiver of the shaft; blocks ascend as in the list.
-void gather_doubtful(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft,
-                     std::vector<EdgesOfBlock>& out);
-/// Whether one of them does not for a receiver: its sides' faces look the same way, or what is seen of them
-/// lies beside the disk or below the receiver's tangent plane.
-bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver, double slack);
-
 /// What one receiver sees: the segments that are near, have a jump, and are not wholly below its horizon.
 struct Sight {
   std::vector<Segment> segments;

@@ -1,7 +1,6 @@
 #include "render/silhouette_frame.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -35,23 +34,6 @@ struct ToFrame {
   const UnitLight& light;
   Vec3 operator()(const Vec3& p) const { return light.point(p); }
 };
-
-/// Of points in the light's frame, on all cores.
-Bounds box_in_frame(std::span<const Vec3> points, const ToFrame& to_frame) {
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, points.size(), 4096), Bounds{},
-      [&](const auto& range, Bounds box) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const Vec3 p = to_frame(points[i]);
-          box.low = glm::min(box.low, p);
-          box.high = glm::max(box.high, p);
-        }
-        return box;
-      },
-      [](const Bounds& a, const Bounds& b) {
-        return Bounds{glm::min(a.low, b.low), glm::max(a.high, b.high)};
-      });
-}
 
 /// A caster under the light. Vertices are taken to the light's frame where they are needed, with the same
 /// bits each time.
@@ -168,18 +150,18 @@ UnitLight::UnitLight(const DiskLight& light)
       up_(light.radius * axes_.v),
       per_radius_(1.0 / light.radius) {}
 
-LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, double scale,
+LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const SceneEdges& edges,
                    std::span<const char> are_idle)
     : scene(lit_scene),
       light(unit_light),
       idle(are_idle),
-      depth(kLightOffset / scale * light.per_radius()),
+      depth(kLightOffset / edges.scale() * light.per_radius()),
       boxes(scene.objects.size()),
       extent(extent_of(scene, light)) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     if (!object.casts || object.mesh.empty() || (!idle.empty() && idle[i])) continue;
-    boxes[i] = box_in_frame(object.mesh.positions(), ToFrame{light});
+    boxes[i] = edges.points(i).box_in(light);
     all_in_front = all_in_front && FrontSide(depth)(boxes[i].low);
   }
 }
@@ -228,6 +210,7 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
   const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.scene.light, lit.idle);
   band.bounds.resize(blocks.size());
   band.moved.resize(blocks.size());
+  band.lanes = LargeArray<MergedLanes>(blocks.size());
   const std::size_t missing =  // of the level's last block
       !blocks.empty() && blocks.back() + 1 == level.block_count()
           ? level.block_count() * MergedBlock::kEdges - level.edges.size()
@@ -240,6 +223,7 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
       std::copy_n(block.edges.begin(), block.count, band.edges.data() + i * MergedBlock::kEdges);
       std::copy_n(block.sides.begin(), block.count, band.sides.data() + i * MergedBlock::kEdges);
       band.bounds[i] = block.bounds();
+      band.lanes[i] = MergedLanes(block, lit.extent);
       band.moved[i] = static_cast<float>(block.moved * lit.light.per_radius());
     }
   });

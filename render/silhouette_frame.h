@@ -14,6 +14,7 @@
 #include "render/band_edge.h"
 #include "render/large_array.h"
 #include "render/merged_edges.h"
+#include "render/merged_lanes.h"
 #include "render/scene_edges.h"
 
 namespace penumbra::detail {
@@ -43,9 +44,10 @@ class UnitLight {
 
 /// What casts in a light's frame. Refers to its arguments.
 struct LitScene {
-  /// Without the casters whose flag in `idle` (one an object, or none) is set. `scale`: of the frame of rays.
-  /// Cost O(vertices), on all cores.
-  LitScene(const Scene& scene, const UnitLight& light, double scale, std::span<const char> idle = {});
+  /// Without the casters whose flag in `idle` (one an object, or none) is set; `edges` are the scene's. Cost
+  /// O(vertices), a hundredth of them where neighbours in a mesh's arrays are neighbours in space.
+  LitScene(const Scene& scene, const UnitLight& light, const SceneEdges& edges,
+           std::span<const char> idle = {});
 
   const Scene& scene;
   const UnitLight& light;
@@ -67,6 +69,7 @@ struct Band {
   /// within, and how far the worst of them is moved (merged_edges.h; light radii).
   std::vector<BlockBounds> bounds;
   std::vector<float> moved;
+  LargeArray<MergedLanes> lanes;
   /// And of each edge what its left and right side stand for.
   std::vector<MergedSides> sides;
   bool is_merged() const { return !moved.empty(); }

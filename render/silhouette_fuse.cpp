@@ -30,8 +30,8 @@ void integrate_rim(const double* heights, std::size_t count, double* __restrict 
 
 }  // namespace
 
-bool fuse_chain(const Cut& cut, const DiskPart& part, Fused& out) {
-  if (!is_one_chain(cut)) return false;
+bool fuse_chain(const Cut& cut, const DiskPart& part, double sliver, Fused& out) {
+  if (!is_one_chain(cut, sliver * part.area())) return false;
   // Directed so that the lower level lies on the right.
   const bool in_order = cut.events[0].change < 0;
   const Event &start = cut.events[in_order ? 0 : 1], &end = cut.events[in_order ? 1 : 0];
@@ -222,7 +222,7 @@ bool Fuser::by_few_rows(const Cut& cut, const DiskPart& part, double sliver, Fus
 }
 
 void Fuser::fuse(const Cut& cut, const DiskPart& part, int rows, double sliver, Fused& out) {
-  if (fuse_chain(cut, part, out)) return;
+  if (fuse_chain(cut, part, sliver, out)) return;
   const std::size_t segments = cut.segments.size();
   if (segments <= kMostForSlabs)
     out = by_slabs(cut, part, sliver);

@@ -94,6 +94,7 @@ class Fuser {
 };
 
 /// Closed form for one chain; false where it is none, or where there is little room beside it for a ray.
-bool fuse_chain(const Cut& cut, const DiskPart& part, Fused& out);
+/// Levels in slivers are left out of account, as in Fuser::fuse.
+bool fuse_chain(const Cut& cut, const DiskPart& part, double sliver, Fused& out);
 
 }  // namespace penumbra::detail

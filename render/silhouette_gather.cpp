@@ -86,15 +86,16 @@ void Shaft::tighten(std::span<const Receiver> receivers) {
   tighten_slopes(receivers.data(), receivers.size(), slope_.data());
   horizon_ =
       std::any_of(receivers.begin(), receivers.end(), [](const Receiver& r) { return r.horizon_cuts; });
-  if (!horizon_) return;
-  Bounds normals;
-  lowest_ = 0.0;
+  if (horizon_) horizons_ = Horizons(receivers, middle_);
+}
+
+Shaft::Horizons::Horizons(std::span<const Receiver> receivers, const Vec3& middle) {
+  Bounds box;
   for (const Receiver& r : receivers) {
-    normals.add(r.normal);
-    lowest_ = std::min(lowest_, glm::dot(r.normal, r.x - middle_));
+    box.add(r.normal);
+    lowest = std::min(lowest, glm::dot(r.normal, r.x - middle));
   }
-  normal_low_ = normals.low;
-  normal_high_ = normals.high;
+  low = box.low, high = box.high;
 }
 
 Shaft::Side Shaft::side_plane(int k) const {
@@ -120,9 +121,9 @@ Region Shaft::region(std::span<const Receiver> receivers, const UnitLight& light
            glm::abs(light.world_direction({0.0, 0.0, half.z}));
   };
   Region out(planes, light.world_direction(middle_ - origin) / scale, rotated(half_) / scale);
-  if (horizon_)
-    out.add_horizon(light.world_direction(0.5 * (normal_low_ + normal_high_)),
-                    rotated(0.5 * (normal_high_ - normal_low_)), lowest_ / scale);
+  const Horizons horizons(receivers, middle_);
+  out.add_horizon(light.world_direction(0.5 * (horizons.low + horizons.high)),
+                  rotated(0.5 * (horizons.high - horizons.low)), horizons.lowest / scale);
   for (const Receiver& r : receivers)
     out.add_receiver(light.world_direction(r.x - origin) / scale, light.world_direction(r.normal));
   return out;
@@ -131,8 +132,8 @@ Region Shaft::region(std::span<const Receiver> receivers, const UnitLight& light
 bool Shaft::below_horizons(const Vec3& p) const {
   const Vec3 d = p - middle_;
   double highest = 0.0;
-  for (int k = 0; k < 3; ++k) highest += std::max(normal_low_[k] * d[k], normal_high_[k] * d[k]);
-  return highest < lowest_ - margin_;
+  for (int k = 0; k < 3; ++k) highest += std::max(horizons_.low[k] * d[k], horizons_.high[k] * d[k]);
+  return highest < horizons_.lowest - margin_;
 }
 
 bool Shaft::misses(const Vec3& low, const Vec3& high) const {

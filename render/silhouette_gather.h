@@ -52,16 +52,20 @@ class Shaft {
     double offset;
   };
   Side side_plane(int k) const;
-  /// The same for the frame of rays.
+  /// The same for the frame of rays, and always with the receivers' horizons: what lies below them all hides
+  /// nothing of what is above.
   Region region(std::span<const Receiver> receivers, const UnitLight& light, const RayFrame& frame) const;
   const Vec3& middle() const { return middle_; }
   const Vec3& half() const { return half_; }
-  /// Some receiver's horizon cuts the disk; the box of all receivers' normals, and the least normal·(receiver
-  /// - middle) of all.
+  struct Horizons {
+    Horizons() = default;
+    Horizons(std::span<const Receiver> receivers, const Vec3& middle);
+    Vec3 low{0.0}, high{0.0};  ///< box of all receivers' normals
+    double lowest = 0.0;       ///< the least normal·(receiver - middle)
+  };
+  /// Some receiver's horizon cuts the disk, and of a tightened shaft then all horizons.
   bool has_horizon() const { return horizon_; }
-  const Vec3& normal_low() const { return normal_low_; }
-  const Vec3& normal_high() const { return normal_high_; }
-  double lowest() const { return lowest_; }
+  const Horizons& horizons() const { return horizons_; }
 
  private:
   bool below_horizons(const Vec3& p) const;
@@ -70,8 +74,7 @@ class Shaft {
   double top_, margin_;
   Vec3 middle_, half_;  ///< box of the receivers
   bool horizon_ = false;
-  Vec3 normal_low_, normal_high_;  ///< box of their normals
-  double lowest_ = 0.0;            ///< least normal·(receiver - middle)
+  Horizons horizons_;
 };
 
 }  // namespace penumbra::detail

@@ -4,6 +4,10 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <span>
+
+#include "render/float_lanes.h"
 
 namespace penumbra::detail {
 namespace {
@@ -65,6 +69,96 @@ double sum_of_crosses(std::span<const Segment> segments) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+/// The segments of a chain along its general direction and across it, in float: areas of folds need not be
+/// exact.
+class Folds {
+ public:
+  static constexpr std::size_t kMost = 128;  ///< segments
+  Folds(std::span<const Segment> segments, const dvec2& general)
+      : blocks_((segments.size() + kFloatLanes - 1) / kFloatLanes) {
+    constexpr float kNowhere = 1e30f;
+    const dvec2 along = general / glm::length(general), across(-along.y, along.x);
+    // For now the ends as they come: along, along, across, across.
+    const auto put = [&](std::size_t i, float a, float b, float a_across, float b_across) {
+      const std::size_t block = i / kFloatLanes, lane = i % kFloatLanes;
+      first_[block][lane] = a, last_[block][lane] = b;
+      start_[block][lane] = a_across, slope_[block][lane] = b_across;
+    };
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const dvec2 &a = segments[i].a, &b = segments[i].b;
+      put(i, static_cast<float>(glm::dot(a, along)), static_cast<float>(glm::dot(b, along)),
+          static_cast<float>(glm::dot(a, across)), static_cast<float>(glm::dot(b, across)));
+    }
+    for (std::size_t i = segments.size(); i < blocks_ * kFloatLanes; ++i) put(i, kNowhere, kNowhere, 0, 0);
+    arrange();
+  }
+
+  /// A line across the general direction meets k segments that go back and k or k + 1 others. Were it to
+  /// meet at most one, somewhere between the first and the last, no level between these would differ by more
+  /// than k + 1 ≤ 2 k jumps. Returns twice the largest distance of these times the width, for one that goes
+  /// back.
+  float area(std::size_t back) const {
+    const float low = first_[back / kFloatLanes][back % kFloatLanes];
+    const float high = last_[back / kFloatLanes][back % kFloatLanes];
+    return 2.0f * (high - low) * height(low, high);
+  }
+
+ private:
+  void arrange();
+  float height(float low, float high) const;
+
+  std::size_t blocks_;
+  std::array<Floats, kMost / kFloatLanes> first_, last_, start_, slope_;
+};
+
+/// From ends to where segments begin and how they rise.
+PENUMBRA_VECTOR_CLONES
+void Folds::arrange() {
+  constexpr float kLeastWidth = 1e-6f;
+  for (std::size_t i = 0; i < blocks_; ++i) {
+    const Floats a = first_[i], b = last_[i], a_across = start_[i], b_across = slope_[i];
+    const Ints turned = b < a;
+    const Floats length = magnitude(b - a), width = length > kLeastWidth ? length : kLeastWidth + Floats{};
+    first_[i] = turned ? b : a;
+    last_[i] = first_[i] + width;
+    start_[i] = turned ? b_across : a_across;
+    slope_[i] = (turned ? a_across - b_across : b_across - a_across) / width;
+  }
+}
+
+/// Between the lowest and the highest point of segments over a range.
+PENUMBRA_VECTOR_CLONES
+float Folds::height(float low, float high) const {
+  Floats least = 1e30f - Floats{}, most = -1e30f + Floats{};
+  for (std::size_t i = 0; i < blocks_; ++i) {
+    const Floats from = first_[i] < low ? low + Floats{} : first_[i];
+    const Floats to = last_[i] > high ? high + Floats{} : last_[i];
+    const Floats at_from = start_[i] + slope_[i] * (from - first_[i]);
+    const Floats at_to = start_[i] + slope_[i] * (to - first_[i]);
+    const Ints rises = at_to > at_from, met = from <= to;
+    const Floats lower = rises ? at_from : at_to, higher = rises ? at_to : at_from;
+    least = (met & (lower < least)) ? lower : least;
+    most = (met & (higher > most)) ? higher : most;
+  }
+  float lowest = least[0], highest = most[0];
+  for (int lane = 1; lane < kFloatLanes; ++lane) {
+    lowest = std::min(lowest, least[lane]);
+    highest = std::max(highest, most[lane]);
+  }
+  return highest - lowest;
+}
+
+/// Of all that go back; or of so many that it is more than `most`.
+template <class GoesBack>
+double area_of_folds(std::span<const Segment> segments, const dvec2& general, double most,
+                     const GoesBack& goes_back) {
+  const Folds folds(segments, general);
+  double area = 0.0;
+  for (std::size_t i = 0; i < segments.size() && area <= most; ++i)
+    if (goes_back(segments[i])) area += folds.area(i);
+  return area;
+}
+
 }  // namespace
 
 void cut_segments(std::span<const Segment> segments, std::size_t inside, const DiskPart& part, Cut& out) {
@@ -100,7 +194,7 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
   out.closed = changes == 0;
 }
 
-bool is_one_chain(const Cut& cut) {
+bool is_one_chain(const Cut& cut, double folds) {
   if (cut.events.size() != 2) return false;
   dvec2 general(0.0);
   const int size = std::abs(cut.segments.empty() ? 0 : cut.segments.front().jump);
@@ -108,8 +202,10 @@ bool is_one_chain(const Cut& cut) {
     if (std::abs(s.jump) != size) return false;
     general += s.jump > 0 ? s.b - s.a : s.a - s.b;
   }
-  return std::all_of(cut.segments.begin(), cut.segments.end(),
-                     [&](const Segment& s) { return glm::dot(s.b - s.a, general) * s.jump >= 0.0; });
+  const auto goes_back = [&](const Segment& s) { return glm::dot(s.b - s.a, general) * s.jump < 0.0; };
+  if (std::ranges::none_of(cut.segments, goes_back)) return true;
+  return folds > 0.0 && cut.segments.size() <= Folds::kMost &&
+         area_of_folds(cut.segments, general, folds, goes_back) <= folds;
 }
 
 }  // namespace penumbra::detail

@@ -7,6 +7,8 @@ namespace {
 constexpr double kMostMerged = 0.125;
 constexpr double kMostMergedFlat = 0.5;  // the same for what is flat: never wrong, and never tried in vain
 
+constexpr std::size_t kInRegion = 4;  // receivers
+
 }  // namespace
 
 /// Levels that leave most of the band's edges are no help.
@@ -31,24 +33,26 @@ Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdg
 
 std::vector<Region> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
                                const ReceiverSource& source, const UnitLight& light, const RayFrame& frame) {
-  std::vector<Region> out;
-  std::vector<Receiver> receivers;
-  std::vector<std::uint32_t> undecided;
-  const auto add = [&](const auto& self, std::span<Receiver> part) -> void {
-    if (part.size() > kFewReceivers) {
-      const std::size_t middle = halve(part);
-      self(self, part.first(middle));
-      return self(self, part.subspan(middle));
-    }
-    Shaft shaft(part, 1.0);
-    shaft.tighten(part);
-    out.push_back(shaft.region(part, light, frame));
-  };
-  for (const int tile : some) {
-    source.collect(tiles.column(tile), tiles.row(tile), receivers, undecided);
+  std::vector<std::vector<Region>> of_tiles(some.size());
+  tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+    std::vector<Receiver> receivers;
+    std::vector<std::uint32_t> undecided;
+    source.collect(tiles.column(some[i]), tiles.row(some[i]), receivers, undecided);
     std::erase_if(receivers, [&](const Receiver& r) { return passes.of[r.pixel] != passes.now; });
+    const auto add = [&](const auto& self, std::span<Receiver> part) -> void {
+      if (part.size() > kInRegion) {
+        const std::size_t middle = halve(part);
+        self(self, part.first(middle));
+        return self(self, part.subspan(middle));
+      }
+      Shaft shaft(part, 1.0);
+      shaft.tighten(part);
+      of_tiles[i].push_back(shaft.region(part, light, frame));
+    };
     if (!receivers.empty()) add(add, receivers);
-  }
+  });
+  std::vector<Region> out;
+  for (const auto& regions : of_tiles) out.insert(out.end(), regions.begin(), regions.end());
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "mesh/shapes.h"
+#include "render/merged_certificate.h"
 #include "render/ray_scene.h"
 #include "render/silhouette.h"
 #include "render/silhouette_certificate.h"
@@ -329,8 +330,9 @@ TEST(MergedFaces, CertificatesHoldToTheLast) {
     const Scene scene = scene_of(mesh);
     const RayFrame frame = ray_frame(scene);
     const UnitLight light(scene.light);
-    const LitScene lit(scene, light, frame.scale);
-    const Band exact = make_band(lit, SceneEdges(scene, frame.origin, frame.scale));
+    const SceneEdges edges(scene, frame.origin, frame.scale);
+    const LitScene lit(scene, light, edges);
+    const Band exact = make_band(lit, edges);
     const double slack = certificate_slack(lit.extent);
     const MergedEdges merged = merged_edges_of(scene);
     for (const MergedLevel& level : merged.levels()) {
@@ -380,7 +382,7 @@ TEST(SceneEdges, LoseNothingThatAReceiverSees) {
     const RayFrame frame = ray_frame(scene);
     const UnitLight light(scene.light);
     const SceneEdges edges(scene, frame.origin, frame.scale);
-    const LitScene lit(scene, light, frame.scale);
+    const LitScene lit(scene, light, edges);
     const Band all = make_band(lit, edges);
     std::size_t seen = 0;
     for (int round = 0; round < 40; ++round) {

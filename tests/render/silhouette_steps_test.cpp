@@ -115,7 +115,7 @@ TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
       EXPECT_GE(height(part.horizon(), aim), -1e-9);
     }
     Fused chain;
-    if (fuse_chain(cut, part, chain)) {
+    if (fuse_chain(cut, part, 0.0, chain)) {
       EXPECT_NEAR(chain.area, slabs.area, 1e-9) << i;
     }
   }
@@ -228,7 +228,7 @@ TEST(Integrate, IsExactForOneChord) {
     Cut cut;
     cut_segments(segments, 0, part, cut);
     Fused out;
-    if (!fuse_chain(cut, part, out)) continue;  // too near the rim for a ray
+    if (!fuse_chain(cut, part, 0.0, out)) continue;  // too near the rim for a ray
     EXPECT_NEAR(out.area / testing::kPi, half_plane_area(chord.delta), 1e-9) << i;
   }
 }
@@ -236,7 +236,8 @@ TEST(Integrate, IsExactForOneChord) {
 Band band_of(const Scene& scene) {
   const RayFrame frame = ray_frame(scene);
   const UnitLight light(scene.light);
-  return make_band(LitScene(scene, light, frame.scale), SceneEdges(scene, frame.origin, frame.scale));
+  const SceneEdges edges(scene, frame.origin, frame.scale);
+  return make_band(LitScene(scene, light, edges), edges);
 }
 
 /// Random triangles between light and receivers as a band.
