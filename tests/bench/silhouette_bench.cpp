@@ -63,27 +63,31 @@ CertifiedShares certified_shares(const Scene& scene, const RayScene& rays, const
           umbra + may_be_umbra > 0.0 ? umbra / (umbra + may_be_umbra) : 1.0};
 }
 
-/// Median milliseconds of frames.
-double frame(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface) {
-  std::vector<double> times;
-  for (int i = 0; i <= kFrames; ++i) {
-    const double t = total(silhouette_visibility(scene, rays, surface).stages);
-    if (i > 0) times.push_back(t);
-  }
-  return median(times);
-}
+/// A scene ready to be timed.
+struct Stand {
+  explicit Stand(const Scene& of)
+      : scene(of), rays(scene, 0), surface(make_surface_buffer(scene, rays, 640, 480)) {}
+  SilhouetteResult frame() const { return silhouette_visibility(scene, rays, surface); }
+  Scene scene;
+  RayScene rays;
+  SurfaceBuffer surface;
+};
 
-/// One line: faces, band edges, frame; returns the frame.
-double time_growth(const char* what, const Scene& scene, double first) {
-  const RayScene rays(scene, 0);
-  const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
-  const double time = frame(scene, rays, surface);
-  const SilhouetteCounts c = silhouette_visibility(scene, rays, surface).counts;
+/// One line: faces, band edges, median frame, and as a multiple of the first scene's; frames of both are
+/// interleaved.
+void time_growth(const char* what, const Stand& first, const Stand& stand) {
+  constexpr int kPairs = 25;
+  std::vector<double> times, ratios;
+  for (int i = 0; i <= kPairs; ++i) {
+    const double before = total(first.frame().stages), time = total(stand.frame().stages);
+    if (i == 0) continue;  // warms up
+    times.push_back(time);
+    ratios.push_back(time / before);
+  }
+  const SilhouetteCounts c = stand.frame().counts;
   std::printf("%-24s %8zu faces, %7zu edges in the band: %7.1f ms, %.2f× the first; %.1f MiB\n", what,
-              c.faces, c.band_edges, time, first > 0.0 ? time / first : 1.0,
-              static_cast<double>(c.bytes) / 1048576.0);
+              c.faces, c.band_edges, median(times), median(ratios), static_cast<double>(c.bytes) / 1048576.0);
   std::fflush(stdout);
-  return first > 0.0 ? first : time;
 }
 
 Scene bench_scene(const std::string& name) {
@@ -122,16 +126,17 @@ void time_silhouette_growth() {
   Scene scene = bench_scene("sphere-medium");
   SceneObject& caster = scene.objects.back();
   const Bounds box = bounds_of(caster.mesh.positions());
-  double first = 0.0;
-  for (int levels = 3; levels <= 8; ++levels) {
+  const auto sphere = [&](int levels) {
     caster.mesh = make_icosphere(box.center(), 0.5 * (box.high.x - box.low.x), levels);
-    first = time_growth("sphere", scene, first);
-  }
-  scene = bench_scene("torus-medium");
-  first = 0.0;
+    return Stand(scene);
+  };
+  const Stand coarse_sphere = sphere(3);
+  for (int levels = 3; levels <= 8; ++levels) time_growth("sphere", coarse_sphere, sphere(levels));
+  Scene torus = bench_scene("torus-medium");
+  const Stand coarse_torus(torus);
   for (int i = 0; i <= 5; ++i) {
-    if (i > 0) scene.objects.back().mesh = testing::cut_in_four(scene.objects.back().mesh);
-    first = time_growth("torus, cut in four", scene, first);
+    if (i > 0) torus.objects.back().mesh = testing::cut_in_four(torus.objects.back().mesh);
+    time_growth("torus, cut in four", coarse_torus, Stand(torus));
   }
   for (const double scale : {0.25, 0.5, 1.0, 2.0, 4.0}) {
     scene = bench_scene("knot1-medium");
