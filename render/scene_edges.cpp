@@ -17,6 +17,7 @@ namespace penumbra::detail {
 namespace {
 
 constexpr std::size_t kLanes = kFloatLanes;
+constexpr std::size_t kCacheLine = 64;
 
 struct Placed {
   std::array<float, 3> at;  ///< its middle
@@ -149,7 +150,7 @@ std::size_t SceneEdges::size_of_band(const DiskLight& light) const {
 
 /// What a region's receivers have to look at. Which edges have their faces on both sides of a receiver is
 /// asked in float; whether they lie below its tangent plane is not, since receivers lie so little above their
-/// surfaces. Ends of edges lie anywhere in memory: they are sent for before they are needed.
+/// surfaces. Planes and ends of edges lie anywhere in memory: they are sent for before they are needed.
 void SceneEdges::mark_needed(const Region& region, const Scene& scene,
                              std::vector<std::atomic<std::uint8_t>>& needed) const {
   struct Question {
@@ -158,15 +159,19 @@ void SceneEdges::mark_needed(const Region& region, const Scene& scene,
   };
   std::vector<Siblings> parents;
   tree_.gather(region, parents);
-  std::vector<Question> questions;
+  std::vector<Question> asked, questions;
   for (std::size_t r = 0; r < region.receivers().size(); ++r)
     for (const Siblings& s : parents)
       for_each_block(std::array{Siblings{s.parent, kept_by(region.receivers()[r], tree_.blocks(), s)}},
                      [&](std::size_t block) {
-                       const std::uint32_t lanes =
-                           may_be_silhouettes(planes_[block], region.receivers()[r].at());
-                       if (lanes != 0) questions.push_back({block, r, lanes});
+                       for (std::size_t line = 0; line < sizeof(LocalPlanes); line += kCacheLine)
+                         __builtin_prefetch(reinterpret_cast<const char*>(&planes_[block]) + line);
+                       asked.push_back({block, r, 0});
                      });
+  for (Question& q : asked) {
+    q.lanes = may_be_silhouettes(planes_[q.block], region.receivers()[q.receiver].at());
+    if (q.lanes != 0) questions.push_back(q);
+  }
   const auto for_each_edge = [&](const auto& visit) {
     for (const Question& q : questions)
       for (std::uint32_t lanes = q.lanes; lanes != 0; lanes &= lanes - 1) {

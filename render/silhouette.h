@@ -34,7 +34,7 @@ struct SilhouetteOptions {
                           ///< of them where fewer than 256 edges cross the disk
   bool integrate = true;  ///< false: certificates only; pixels without one are listed in `open`, and
                           ///< such that would have to look at more than some 8,000 edges are not tried
-  double moved = 2e-3;    ///< how far silhouettes of merged faces may lie from the true ones, in light
+  double moved = 4e-3;    ///< how far silhouettes of merged faces may lie from the true ones, in light
                           ///< radii in the light's plane (merged_edges.h), 0 to 0.1; 0: no faces are
                           ///< merged. Only for casters of 1,024 faces or more, and never for `integrate`
                           ///< false
