@@ -18,6 +18,7 @@ class PointGroups {
   /// The smallest box in the light's frame. Cost O(groups) and the points of those that reach its sides, few
   /// where neighbours in the array are neighbours in space.
   Bounds box_in(const UnitLight& light) const;
+  std::size_t bytes() const { return groups_.size() * sizeof(Bounds); }
 
  private:
   std::span<const Vec3> points_;

@@ -208,7 +208,9 @@ std::vector<SceneEdge> SceneEdges::band_for(std::span<const Region> regions, con
 }
 
 std::size_t SceneEdges::bytes() const {
-  return edges_.size() * sizeof(SceneEdge) + planes_.size() * sizeof(LocalPlanes) + tree_.bytes();
+  std::size_t sum = edges_.size() * sizeof(SceneEdge) + planes_.size() * sizeof(LocalPlanes) + tree_.bytes();
+  for (const PointGroups& p : points_) sum += p.bytes();
+  return sum;
 }
 
 }  // namespace penumbra::detail

@@ -50,7 +50,7 @@ class SceneEdges {
   std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> idle) const;
   /// At least as many as these, within a few times. Cost O(√E) where the surface is fine.
   std::size_t size_of_band(const DiskLight& light) const;
-  /// Of these what may matter to the receivers of some regions. Cost: some 20 μs a region.
+  /// Of these what may matter to the receivers of some regions. Cost: some 10 μs a region on a fine surface.
   std::vector<SceneEdge> band_for(std::span<const Region> regions, const Scene& scene, const DiskLight& light,
                                   std::span<const char> idle) const;
   std::size_t size() const { return edges_.size(); }

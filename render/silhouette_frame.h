@@ -73,6 +73,10 @@ struct Band {
   /// And of each edge what its left and right side stand for.
   std::vector<MergedSides> sides;
   bool is_merged() const { return !moved.empty(); }
+  std::size_t bytes() const {
+    return edges.size() * sizeof(BandEdge) + sides.size() * sizeof(MergedSides) +
+           bounds.size() * (sizeof(BlockBounds) + sizeof(float) + sizeof(MergedLanes));
+  }
 };
 
 /// Of all casters; `edges` are the scene's. A few edges more than the band has, by rounding. Where there are

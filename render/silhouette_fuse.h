@@ -10,16 +10,16 @@
 //   height is its area; at the rim the slab's mean of √(1-y²) takes the place of the width. Exact for any
 //   number of levels.
 // - Many segments: rows at even distances with exact intervals, an area A_k for every level k, good to the
-//   rows' spacing. The exact integral of L corrects the area of the lowest level as a control variate: with p its
-//   share,
+//   rows' spacing. The exact integral of L corrects the area of the lowest level as a control variate: with p
+//   its share,
 //     area = |D| p + c (∫ L - |D| mean L),   c = cov(lowest?, L) / var L   under the areas A_k,
 //   which is exact again where only two levels occur; rows only have to measure the overlap. Where the two
 //   disagree by much, four times as many rows are swept.
 //
 // Silhouettes of merged faces (merged_edges.h) turn back here and there, in slivers that the true ones do not
 // have, at levels that may lie below the true lowest. They are left out of account: a chain may turn back by
-// as much (`is_one_chain`), and where there are several chains few rows tell whether there are two levels, and
-// then the integral is the answer.
+// as much (`is_one_chain`), and where there are several chains few rows tell whether there are two levels,
+// and then the integral is the answer.
 //
 // Rays aim at two points of the lowest level far from the segments; the second serves where the first is
 // hidden, since a point may happen to lie near an edge.

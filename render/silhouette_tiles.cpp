@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <utility>

@@ -80,7 +80,7 @@ class Evaluation {
     out.mesh_edges = band_.mesh_edges;
     out.band_edges += band_.edges.size();
     out.cut_edges = band_.cut_edges;
-    out.bytes += band_.edges.size() * sizeof(BandEdge) + tree_.bytes() + blocks_.bytes();
+    out.bytes += band_.bytes() + tree_.bytes() + blocks_.bytes();
   }
 
  private:
