@@ -1,4 +1,4 @@
-// Eight merged edges in float: which of them lie beside the light for certain.
+// Eight merged edges in float, in the light's frame (light radii): which of them lie beside it for certain.
 //
 // What a merged edge stands for is seen within its margin, by receivers that are twice the radius of its
 // curved sides away (MergedSides). So it is no silhouette across the disk where its ends lie beyond a plane

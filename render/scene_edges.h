@@ -43,7 +43,7 @@ struct FloatDisk {
 class SceneEdges {
  public:
   /// In the frame (p - origin) · scale, which takes all of the scene into [-1, 1]. Cost O(E log E), most of
-  /// it on all cores; some 50 bytes an edge.
+  /// it on all cores; some 60 bytes an edge.
   SceneEdges(const Scene& scene, const Vec3& origin, double scale);
   /// Those of the light's band, neighbours close together, but for objects whose flag in `idle` (one an
   /// object, or none) is set. Cost O(band + √E), on all cores.

@@ -69,7 +69,7 @@ struct Band {
   /// within, and how far the worst of them is moved (merged_edges.h; light radii).
   std::vector<BlockBounds> bounds;
   std::vector<float> moved;
-  LargeArray<MergedLanes> lanes;
+  LargeArray<MergedLanes> lanes;  ///< these edges in float
   /// And of each edge what its left and right side stand for.
   std::vector<MergedSides> sides;
   bool is_merged() const { return !moved.empty(); }

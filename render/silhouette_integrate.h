@@ -32,7 +32,7 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
 /// True where only two levels can occur: one chain of segments that enters and leaves D once and never turns
 /// by a right angle or more from its general direction, hence never crosses itself. With `folds` above 0 it
 /// may turn back, but so little that other levels, which then occur where it does, cannot take up more of D's
-/// area than that.
+/// area than that; not with more than 128 segments. Cost O(segments), times those that go back.
 bool is_one_chain(const Cut& cut, double folds = 0.0);
 
 }  // namespace penumbra::detail

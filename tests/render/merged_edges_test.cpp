@@ -321,6 +321,21 @@ TEST(MergedFaces, AreNotMistakenWhereCastersCrossTheLightsPlane) {
   EXPECT_EQ(d.most, 0.0);
 }
 
+/// A scene under its light.
+struct Stage {
+  explicit Stage(const Scene& scene)
+      : frame(ray_frame(scene)),
+        light(scene.light),
+        edges(scene, frame.origin, frame.scale),
+        lit(scene, light, edges),
+        band(make_band(lit, edges)) {}
+  RayFrame frame;
+  UnitLight light;
+  SceneEdges edges;
+  LitScene lit;
+  Band band;  ///< of all faces
+};
+
 /// On the way from light into penumbra, where the certificate only just holds, no true edge is across the
 /// disk.
 TEST(MergedFaces, CertificatesHoldToTheLast) {
@@ -328,11 +343,8 @@ TEST(MergedFaces, CertificatesHoldToTheLast) {
   std::size_t checked = 0;
   for (const auto& [name, mesh] : meshes(6)) {
     const Scene scene = scene_of(mesh);
-    const RayFrame frame = ray_frame(scene);
-    const UnitLight light(scene.light);
-    const SceneEdges edges(scene, frame.origin, frame.scale);
-    const LitScene lit(scene, light, edges);
-    const Band exact = make_band(lit, edges);
+    const Stage stage(scene);
+    const auto& [frame, light, edges, lit, exact] = stage;
     const double slack = certificate_slack(lit.extent);
     const MergedEdges merged = merged_edges_of(scene);
     for (const MergedLevel& level : merged.levels()) {
@@ -432,11 +444,8 @@ TEST(SceneEdges, LoseNothingThatAReceiverSees) {
   Random random(75);
   for (const auto& [name, mesh] : meshes(5)) {
     const Scene scene = scene_of(mesh);
-    const RayFrame frame = ray_frame(scene);
-    const UnitLight light(scene.light);
-    const SceneEdges edges(scene, frame.origin, frame.scale);
-    const LitScene lit(scene, light, edges);
-    const Band all = make_band(lit, edges);
+    const Stage stage(scene);
+    const auto& [frame, light, edges, lit, all] = stage;
     std::size_t seen = 0;
     for (int round = 0; round < 40; ++round) {
       const Vec3 place =
