@@ -1,6 +1,4 @@
-# penumbra_library(NAME): the static library penumbra_NAME (alias penumbra::NAME) from every .cpp of the calling folder
-# and, where EXTRA names them, of its sub-folders; where ONLY names sub-folders, of those alone. Headers are installed with
-# the same layout.
+# Compile flags of the whole project, and how a library is made of the folders of a module.
 include(GNUInstallDirs)
 
 add_library(penumbra_flags INTERFACE)
@@ -18,21 +16,41 @@ if(PENUMBRA_SANITIZE OR PENUMBRA_FUZZ)
   target_link_options(penumbra_flags INTERFACE -fsanitize=address,undefined)
 endif()
 
+# Public headers are included as <penumbra/FOLDER/NAME.h>, here as well as by whoever uses the installed library. In the
+# source tree they stand beside the code that they are the contract of; this folder links to them, and to nothing else.
+set(PENUMBRA_PUBLIC_INCLUDE ${PROJECT_BINARY_DIR}/include)
+
+# penumbra_library(NAME FOLDERS... [PUBLIC HEADERS...]): the static library penumbra_NAME (alias penumbra::NAME) from every
+# .cpp of the folders. Folders and headers are relative to the calling folder. The headers are public: they are linked into
+# PENUMBRA_PUBLIC_INCLUDE and installed; all others are internal.
 function(penumbra_library name)
-  cmake_parse_arguments(ARG "" "" "EXTRA;ONLY" ${ARGN})
-  if(NOT ARG_ONLY)
-    file(GLOB sources CONFIGURE_DEPENDS *.cpp)
-  endif()
-  foreach(folder IN LISTS ARG_EXTRA ARG_ONLY)
+  cmake_parse_arguments(ARG "" "" "FOLDERS;PUBLIC" ${ARGN})
+  set(sources)
+  foreach(folder IN LISTS ARG_FOLDERS)
     file(GLOB more CONFIGURE_DEPENDS ${folder}/*.cpp)
     list(APPEND sources ${more})
   endforeach()
   add_library(penumbra_${name} STATIC ${sources})
   add_library(penumbra::${name} ALIAS penumbra_${name})
   set_target_properties(penumbra_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_include_directories(penumbra_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/penumbra>)
-  target_link_libraries(penumbra_${name} PRIVATE $<BUILD_INTERFACE:penumbra_flags>)
+  target_include_directories(penumbra_${name} PUBLIC $<BUILD_INTERFACE:${PENUMBRA_PUBLIC_INCLUDE}>
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(penumbra_${name} PRIVATE $<BUILD_INTERFACE:penumbra_internal>)
   target_compile_features(penumbra_${name} PUBLIC cxx_std_20)
   install(TARGETS penumbra_${name} EXPORT penumbra-targets)
+
+  file(RELATIVE_PATH module ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  foreach(header IN LISTS ARG_PUBLIC)
+    get_filename_component(folder ${PENUMBRA_PUBLIC_INCLUDE}/penumbra/${module}/${header} DIRECTORY)
+    file(MAKE_DIRECTORY ${folder})
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${header} ${PENUMBRA_PUBLIC_INCLUDE}/penumbra/${module}/${header} SYMBOLIC)
+    get_filename_component(installed penumbra/${module}/${header} DIRECTORY)
+    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${installed})
+    set_property(GLOBAL APPEND PROPERTY PENUMBRA_PUBLIC_HEADERS ${module}/${header})
+  endforeach()
 endfunction()
+
+# What the project's own code needs to include internal headers, beside the flags.
+add_library(penumbra_internal INTERFACE)
+target_include_directories(penumbra_internal INTERFACE ${PROJECT_SOURCE_DIR})
+target_link_libraries(penumbra_internal INTERFACE penumbra_flags)

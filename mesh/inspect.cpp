@@ -1,4 +1,4 @@
-#include "mesh/inspect.h"
+#include "penumbra/mesh/inspect.h"
 
 #include <algorithm>
 #include <cstdio>

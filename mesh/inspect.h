@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "mesh/triangle_mesh.h"
+#include "penumbra/mesh/triangle_mesh.h"
 
 namespace penumbra {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra {
 

@@ -1,4 +1,4 @@
-#include "mesh/shapes.h"
+#include "penumbra/mesh/shapes.h"
 
 #include <algorithm>
 #include <cassert>

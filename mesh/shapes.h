@@ -3,7 +3,7 @@
 // least 0: asserted.
 #pragma once
 
-#include "mesh/triangle_mesh.h"
+#include "penumbra/mesh/triangle_mesh.h"
 
 namespace penumbra {
 

@@ -1,4 +1,4 @@
-#include "mesh/triangle_mesh.h"
+#include "penumbra/mesh/triangle_mesh.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "mesh/detail/manifold_pieces.h"
+#include "mesh/manifold_pieces.h"
 
 namespace penumbra {
 

@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/types.h"
+#include "penumbra/mesh/types.h"
 
 namespace penumbra {
 

@@ -1,4 +1,4 @@
-#include "mesh/vertex_rings.h"
+#include "penumbra/mesh/vertex_rings.h"
 
 namespace penumbra {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/triangle_mesh.h"
+#include "penumbra/mesh/triangle_mesh.h"
 
 namespace penumbra {
 

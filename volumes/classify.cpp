@@ -1,11 +1,11 @@
-#include "volumes/classify.h"
+#include "penumbra/volumes/classify.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 #include <algorithm>
 
-#include "volumes/detail/predicate_tiers.h"
-#include "volumes/detail/quick_class.h"
+#include "volumes/predicates/predicate_tiers.h"
+#include "volumes/predicates/quick_class.h"
 
 namespace penumbra {
 

@@ -6,9 +6,9 @@
 
 #include <vector>
 
-#include "mesh/triangle_mesh.h"
-#include "volumes/disk_light.h"
-#include "volumes/predicates.h"
+#include "penumbra/mesh/triangle_mesh.h"
+#include "penumbra/volumes/disk_light.h"
+#include "penumbra/volumes/predicates/predicates.h"
 
 namespace penumbra {
 

@@ -17,8 +17,8 @@
 // Others add nothing.
 #pragma once
 
-#include "volumes/classify.h"
-#include "volumes/extrude.h"
+#include "penumbra/volumes/classify.h"
+#include "penumbra/volumes/extrude.h"
 
 namespace penumbra {
 

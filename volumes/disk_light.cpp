@@ -1,9 +1,9 @@
-#include "volumes/disk_light.h"
+#include "penumbra/volumes/disk_light.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "volumes/detail/vectors.h"
+#include "mesh/vectors.h"
 
 namespace penumbra {
 

@@ -1,7 +1,7 @@
 // The light: a flat disk that emits on the side of its normal.
 #pragma once
 
-#include "mesh/types.h"
+#include "penumbra/mesh/types.h"
 
 namespace penumbra {
 

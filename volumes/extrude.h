@@ -12,9 +12,9 @@
 // loops do not contain the penumbra of casters that are not convex).
 #pragma once
 
-#include "mesh/progress.h"
-#include "volumes/shadow_mesh.h"
-#include "volumes/silhouette.h"
+#include "penumbra/mesh/progress.h"
+#include "penumbra/volumes/shadow_mesh.h"
+#include "penumbra/volumes/silhouettes.h"
 
 namespace penumbra {
 

@@ -4,12 +4,12 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
-#include "mesh/error.h"
-#include "volumes/detail/convex_component.h"
-#include "volumes/detail/convex_patches.h"
-#include "volumes/detail/penumbra_cell.h"
-#include "volumes/detail/predicate_tiers.h"
-#include "volumes/extrude.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/volumes/extrude.h"
+#include "volumes/cells/convex_component.h"
+#include "volumes/cells/convex_patches.h"
+#include "volumes/cells/penumbra_cell.h"
+#include "volumes/predicates/predicate_tiers.h"
 
 namespace penumbra {
 

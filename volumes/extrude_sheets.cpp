@@ -5,10 +5,10 @@
 #include <numbers>
 #include <tuple>
 
-#include "mesh/error.h"
-#include "volumes/detail/shadow_reach.h"
-#include "volumes/extrude.h"
-#include "volumes/supports.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/volumes/extrude.h"
+#include "penumbra/volumes/supports.h"
+#include "volumes/cells/shadow_reach.h"
 
 namespace penumbra {
 

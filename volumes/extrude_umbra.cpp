@@ -1,4 +1,4 @@
-#include "volumes/extrude.h"
+#include "penumbra/volumes/extrude.h"
 
 namespace penumbra {
 

@@ -1,4 +1,4 @@
-#include "volumes/shadow_mesh.h"
+#include "penumbra/volumes/shadow_mesh.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,8 +7,8 @@
 #include <map>
 #include <ostream>
 
-#include "mesh/error.h"
-#include "mesh/write_file.h"
+#include "mesh/io/write_file.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/types.h"
+#include "penumbra/mesh/types.h"
 
 namespace penumbra {
 

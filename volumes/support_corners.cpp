@@ -18,7 +18,7 @@
 #include <optional>
 #include <tuple>
 
-#include "volumes/supports.h"
+#include "penumbra/volumes/supports.h"
 
 namespace penumbra {
 namespace {

@@ -1,4 +1,4 @@
-#include "volumes/supports.h"
+#include "penumbra/volumes/supports.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -10,7 +10,7 @@
 #include <numbers>
 #include <optional>
 
-#include "volumes/tangent_planes.h"
+#include "penumbra/volumes/tangent_planes.h"
 
 namespace penumbra {
 namespace {

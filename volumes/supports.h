@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
-#include "mesh/vertex_rings.h"
-#include "volumes/silhouette.h"
+#include "penumbra/mesh/vertex_rings.h"
+#include "penumbra/volumes/silhouettes.h"
 
 namespace penumbra {
 
@@ -29,9 +29,8 @@ inline constexpr std::uint32_t kNoFacet = 0xffffffffu;
 struct SupportFacet {
   EdgeId edge;
   SupportKind kind;
-  bool
-      flipped;  ///< runs to → from instead of from → to; directed so that of the plane through a receiver x
-                ///< beyond it and the edge a → b, with normal (a - x) × (b - a), the lit side is the positive
+  bool flipped;  ///< runs to → from instead of from → to; directed so that of the plane through a receiver x
+      ///< beyond it and the edge a → b, with normal (a - x) × (b - a), the lit side is the positive
   double rim_angle;  ///< contact with the disk: center + radius (cos·u + sin·v), radians in [0, 2π)
   std::uint32_t previous = kNoFacet, next = kNoFacet;  ///< facets of the same kind that end at a, begin at b
 };

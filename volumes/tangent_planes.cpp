@@ -1,11 +1,11 @@
-#include "volumes/tangent_planes.h"
+#include "penumbra/volumes/tangent_planes.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "volumes/detail/vectors.h"
-#include "volumes/predicates.h"
+#include "mesh/vectors.h"
+#include "penumbra/volumes/predicates/predicates.h"
 
 namespace penumbra {
 

@@ -9,7 +9,7 @@
 #include <array>
 #include <optional>
 
-#include "volumes/disk_light.h"
+#include "penumbra/volumes/disk_light.h"
 
 namespace penumbra {
 

@@ -1,8 +1,8 @@
-#include "volumes/volumes.h"
+#include "penumbra/volumes/volumes.h"
 
 #include <cmath>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra {
 

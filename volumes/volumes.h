@@ -2,18 +2,18 @@
 //
 //   mesh/triangle_mesh.h   positions and triangles → half-edge mesh
 //   volumes/classify.h     mesh, disk light        → class per face: all-frontfacing, none-frontfacing, mixed
-//   volumes/silhouette.h   classes                 → umbra silhouette, penumbra silhouette, band
+//   volumes/silhouettes.h   classes                 → umbra silhouette, penumbra silhouette, band
 //   volumes/extrude.h      silhouettes             → sheets (facets, cone patches), penumbra and umbra
 //   volumes
 //
-// and one call that runs them all. volumes/checks.h (target penumbra::checks) adds what is verified with
+// and one call that runs them all. volumes/checks/checks.h (target penumbra::checks) adds what is verified with
 // CGAL.
 #pragma once
 
-#include "volumes/classify.h"
-#include "volumes/disk_light.h"
-#include "volumes/extrude.h"
-#include "volumes/silhouette.h"
+#include "penumbra/volumes/classify.h"
+#include "penumbra/volumes/disk_light.h"
+#include "penumbra/volumes/extrude.h"
+#include "penumbra/volumes/silhouettes.h"
 
 namespace penumbra {
 

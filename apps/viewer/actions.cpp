@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/viewer/state_file.h"
-#include "mesh/error.h"
+#include "apps/viewer/state/state_file.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "apps/viewer/commands.h"
-#include "apps/viewer/render_worker.h"
-#include "apps/viewer/state.h"
+#include "apps/viewer/state/state.h"
+#include "apps/viewer/work/render_worker.h"
 
 namespace penumbra::viewer {
 

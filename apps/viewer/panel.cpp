@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "apps/viewer/method_settings.h"
-#include "mesh/error.h"
-#include "volumes/detail/vectors.h"
+#include "apps/viewer/state/method_settings.h"
+#include "mesh/vectors.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
 namespace {

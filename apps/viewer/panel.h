@@ -6,10 +6,10 @@
 #include <string>
 
 #include "apps/viewer/commands.h"
-#include "apps/viewer/costs.h"
-#include "apps/viewer/projection.h"
-#include "apps/viewer/render_worker.h"
-#include "apps/viewer/state.h"
+#include "apps/viewer/handles/projection.h"
+#include "apps/viewer/state/state.h"
+#include "apps/viewer/work/costs.h"
+#include "apps/viewer/work/render_worker.h"
 
 namespace penumbra::viewer {
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "apps/viewer/costs.h"
+#include "apps/viewer/work/costs.h"
 
 namespace penumbra::viewer {
 

@@ -7,23 +7,23 @@
 #include <optional>
 #include <utility>
 
-#include "apps/failures.h"
-#include "apps/messages.h"
-#include "apps/outputs.h"
+#include "apps/common/failures.h"
+#include "apps/common/messages.h"
+#include "apps/common/outputs.h"
 #include "apps/viewer/actions.h"
 #include "apps/viewer/commands.h"
-#include "apps/viewer/exports.h"
-#include "apps/viewer/navigation.h"
-#include "apps/viewer/overlay_pass.h"
+#include "apps/viewer/handles/navigation.h"
+#include "apps/viewer/handles/pointer.h"
 #include "apps/viewer/panel.h"
-#include "apps/viewer/picture_view.h"
-#include "apps/viewer/pointer.h"
-#include "apps/viewer/probe_view.h"
+#include "apps/viewer/pictures/overlay_pass.h"
+#include "apps/viewer/pictures/picture_view.h"
+#include "apps/viewer/pictures/probe_view.h"
 #include "apps/viewer/random_input.h"
-#include "apps/viewer/status.h"
+#include "apps/viewer/state/status.h"
 #include "apps/viewer/window.h"
-#include "apps/viewer/wishes.h"
-#include "mesh/error.h"
+#include "apps/viewer/work/exports.h"
+#include "apps/viewer/work/wishes.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
 namespace {

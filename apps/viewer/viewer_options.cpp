@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "apps/failures.h"
-#include "apps/method_options.h"
-#include "apps/options.h"
-#include "apps/outputs.h"
+#include "apps/common/failures.h"
+#include "apps/common/method_options.h"
+#include "apps/common/options.h"
+#include "apps/common/outputs.h"
 #include "apps/viewer/viewer.h"
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
 namespace {

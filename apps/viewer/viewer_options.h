@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/viewer/state.h"
+#include "apps/viewer/state/state.h"
 
 namespace penumbra::viewer {
 
@@ -27,7 +27,7 @@ struct ViewerOptions {
   std::filesystem::path output = ".";         ///< folder for pictures and states that are saved
 };
 
-/// Runs the whole program: exit code as apps/failures.h has them.
+/// Runs the whole program: exit code as apps/common/failures.h has them.
 int run_viewer(int argc, char** argv);
 
 }  // namespace penumbra::viewer

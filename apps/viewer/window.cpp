@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
 namespace {

@@ -1,6 +1,6 @@
 #include "render/gl/context.h"
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 #include "render/gl/context_backends.h"
 
 namespace penumbra::gl {

@@ -4,7 +4,7 @@
 #include <EGL/eglext.h>
 #include <dlfcn.h>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 #include "render/gl/context_backends.h"
 
 namespace penumbra::gl {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 #include "render/gl/context_backends.h"
 
 namespace penumbra::gl {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 
 namespace penumbra::gl {
 

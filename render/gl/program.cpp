@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
 #include "render/gl/shaders.h"
 
 namespace penumbra::gl {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/render.h"
+#include "penumbra/render/renderer.h"
 #include "tests/bench/bench_support.h"
 
 namespace penumbra::bench {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "render/error_figures.h"
-#include "render/reference.h"
-#include "render/surface_buffer.h"
+#include "render/image/error_figures.h"
+#include "render/rays/reference.h"
+#include "render/receivers/surface_buffer.h"
 
 namespace penumbra::bench {
 

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "mesh/polygon_soup.h"
-#include "mesh/shapes.h"
+#include "penumbra/mesh/io/polygon_soup.h"
+#include "penumbra/mesh/shapes.h"
+#include "penumbra/volumes/classify.h"
 #include "tests/volumes/random_inputs.h"
-#include "volumes/classify.h"
-#include "volumes/detail/predicate_tiers.h"
+#include "volumes/predicates/predicate_tiers.h"
 
 namespace penumbra::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "mesh/shapes.h"
-#include "render/render.h"
+#include "penumbra/mesh/shapes.h"
+#include "penumbra/render/renderer.h"
 #include "tests/bench/bench_support.h"
 
 namespace penumbra::bench {

@@ -8,10 +8,10 @@
 #include <memory>
 #include <string>
 
-#include "render/mip_pyramid.h"
-#include "render/n_buffer.h"
-#include "render/render.h"
-#include "render/summed_area.h"
+#include "penumbra/render/renderer.h"
+#include "render/occlusion_textures/mip_pyramid.h"
+#include "render/occlusion_textures/n_buffer.h"
+#include "render/occlusion_textures/summed_area.h"
 #include "tests/bench/bench_support.h"
 
 namespace penumbra::bench {

@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <string>
 
-#include "mesh/shapes.h"
-#include "render/silhouette.h"
+#include "penumbra/mesh/shapes.h"
+#include "render/silhouette/silhouette_visibility.h"
 #include "tests/bench/bench_support.h"
-#include "tests/render/face_overlap.h"
-#include "tests/render/subdivide.h"
+#include "tests/render/silhouette/face_overlap.h"
+#include "tests/render/silhouette/subdivide.h"
 
 namespace penumbra::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "mesh/error.h"
-#include "mesh/polygon_soup.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/mesh/io/polygon_soup.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::array<std::string, 5> kNames = {"fuzz.ply", "fuzz.obj", "fuzz.off", "fuzz.stl", "fuzz"};

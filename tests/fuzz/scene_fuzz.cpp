@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "mesh/error.h"
-#include "render/scene.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/render/scene/scene.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 // mended.
 #include <gtest/gtest.h>
 
-#include "mesh/inspect.h"
-#include "mesh_samples.h"
+#include "tests/mesh/mesh_samples.h"
+#include "penumbra/mesh/inspect.h"
 
 namespace penumbra {
 namespace {

@@ -1,11 +1,11 @@
-#include "mesh/inspect.h"
+#include "penumbra/mesh/inspect.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "mesh/shapes.h"
-#include "mesh_samples.h"
+#include "tests/mesh/mesh_samples.h"
+#include "penumbra/mesh/shapes.h"
 
 namespace penumbra {
 namespace {

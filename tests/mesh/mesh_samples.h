@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/error.h"
-#include "mesh/polygon_soup.h"
-#include "mesh/triangle_mesh.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/mesh/io/polygon_soup.h"
+#include "penumbra/mesh/triangle_mesh.h"
 
 namespace penumbra::test {
 

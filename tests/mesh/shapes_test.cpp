@@ -1,11 +1,11 @@
-#include "mesh/shapes.h"
+#include "penumbra/mesh/shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "mesh_samples.h"
+#include "tests/mesh/mesh_samples.h"
 
 namespace penumbra {
 namespace {

@@ -1,11 +1,11 @@
-#include "mesh/triangle_mesh.h"
+#include "penumbra/mesh/triangle_mesh.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "mesh_samples.h"
+#include "tests/mesh/mesh_samples.h"
 
 namespace penumbra {
 namespace {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "mesh/inspect.h"
+#include "penumbra/mesh/inspect.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra::testing {

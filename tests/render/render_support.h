@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "mesh/shapes.h"
-#include "render/d_buffer.h"
-#include "render/disk_area.h"
-#include "render/error_figures.h"
-#include "render/reference.h"
-#include "render/scene.h"
-#include "render/surface_buffer.h"
+#include "penumbra/mesh/shapes.h"
+#include "penumbra/render/scene/scene.h"
+#include "render/d_buffer/d_buffer.h"
+#include "render/image/error_figures.h"
+#include "render/light/disk_area.h"
+#include "render/rays/reference.h"
+#include "render/receivers/surface_buffer.h"
 
 namespace penumbra::testing {
 

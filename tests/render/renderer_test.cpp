@@ -1,10 +1,10 @@
 // One Renderer through every method: what was drawn before changes no bit.
 #include <gtest/gtest.h>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/render/renderer.h"
 #include "render/gl/context.h"
 #include "render/gl/functions.h"
-#include "render/render.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {

@@ -1,4 +1,4 @@
-#include "volumes/classify.h"
+#include "penumbra/volumes/classify.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <iostream>
 #include <numbers>
 
-#include "mesh/shapes.h"
+#include "penumbra/mesh/shapes.h"
+#include "penumbra/volumes/silhouettes.h"
 #include "tests/volumes/random_inputs.h"
 #include "tests/volumes/scene_caster.h"
-#include "volumes/silhouette.h"
 
 namespace penumbra {
 namespace {

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "penumbra/volumes/volumes.h"
 #include "tests/volumes/convex_pieces.h"
 #include "tests/volumes/shadow_oracle.h"
-#include "volumes/volumes.h"
 
 namespace penumbra::testing {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "penumbra/volumes/predicates/predicates.h"
 #include "tests/volumes/triangle_tree.h"
-#include "volumes/predicates.h"
 
 namespace penumbra::testing {
 

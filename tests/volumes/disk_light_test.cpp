@@ -1,13 +1,13 @@
-#include "volumes/disk_light.h"
+#include "penumbra/volumes/disk_light.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "mesh/error.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/volumes/volumes.h"
 #include "tests/volumes/random_inputs.h"
-#include "volumes/volumes.h"
 
 namespace penumbra {
 namespace {

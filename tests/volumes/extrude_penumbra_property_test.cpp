@@ -8,10 +8,10 @@
 #include <glm/geometric.hpp>
 #include <iostream>
 
-#include "mesh/shapes.h"
+#include "penumbra/mesh/shapes.h"
+#include "penumbra/volumes/volumes.h"
 #include "tests/volumes/containment_check.h"
 #include "tests/volumes/scene_caster.h"
-#include "volumes/volumes.h"
 
 namespace penumbra {
 namespace {

@@ -1,4 +1,4 @@
-#include "volumes/extrude.h"
+#include "penumbra/volumes/extrude.h"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@
 #include <numbers>
 #include <sstream>
 
-#include "mesh/error.h"
-#include "mesh/polygon_soup.h"
-#include "mesh/shapes.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/mesh/io/polygon_soup.h"
+#include "penumbra/mesh/shapes.h"
+#include "penumbra/volumes/tangent_planes.h"
+#include "penumbra/volumes/volumes.h"
 #include "tests/volumes/scene_caster.h"
 #include "tests/volumes/shadow_oracle.h"
 #include "tests/volumes/triangle_tree.h"
-#include "volumes/tangent_planes.h"
-#include "volumes/volumes.h"
 
 namespace penumbra {
 namespace {

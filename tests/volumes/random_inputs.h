@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "volumes/disk_light.h"
+#include "penumbra/volumes/disk_light.h"
 
 namespace penumbra::testing {
 

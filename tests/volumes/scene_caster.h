@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "mesh/polygon_soup.h"
-#include "mesh/triangle_mesh.h"
-#include "volumes/disk_light.h"
+#include "penumbra/mesh/io/polygon_soup.h"
+#include "penumbra/mesh/triangle_mesh.h"
+#include "penumbra/volumes/disk_light.h"
 
 namespace penumbra::testing {
 

@@ -12,9 +12,9 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/volumes/rational.h"
+#include "penumbra/volumes/disk_light.h"
+#include "tests/volumes/predicates/rational.h"
 #include "tests/volumes/triangle_tree.h"
-#include "volumes/disk_light.h"
 
 namespace penumbra::testing {
 

@@ -1,4 +1,4 @@
-#include "volumes/supports.h"
+#include "penumbra/volumes/supports.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "mesh/shapes.h"
+#include "penumbra/mesh/shapes.h"
 #include "tests/volumes/scene_caster.h"
 
 namespace penumbra {

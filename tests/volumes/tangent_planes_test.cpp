@@ -1,12 +1,12 @@
-#include "volumes/tangent_planes.h"
+#include "penumbra/volumes/tangent_planes.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "penumbra/volumes/predicates/predicates.h"
 #include "tests/volumes/random_inputs.h"
-#include "volumes/predicates.h"
 
 namespace penumbra {
 namespace {

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "mesh/triangle_mesh.h"
+#include "penumbra/mesh/triangle_mesh.h"
+#include "penumbra/volumes/predicates/predicates.h"
 #include "tests/volumes/random_inputs.h"
-#include "volumes/predicates.h"
 
 namespace penumbra::testing {
 

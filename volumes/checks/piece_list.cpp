@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "volumes/predicates.h"
+#include "penumbra/volumes/predicates/predicates.h"
 
 namespace penumbra::detail {
 

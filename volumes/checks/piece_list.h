@@ -3,8 +3,8 @@
 
 #include <random>
 
-#include "mesh/triangle_mesh.h"
-#include "volumes/shadow_mesh.h"
+#include "penumbra/mesh/triangle_mesh.h"
+#include "penumbra/volumes/shadow_mesh.h"
 
 namespace penumbra::detail {
 

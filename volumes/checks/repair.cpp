@@ -1,4 +1,4 @@
-#include "volumes/repair.h"
+#include "penumbra/volumes/checks/repair.h"
 
 #include <algorithm>
 #include <map>
@@ -6,7 +6,7 @@
 #include <set>
 
 #include "volumes/checks/surface_queries.h"
-#include "volumes/detail/predicate_tiers.h"
+#include "volumes/predicates/predicate_tiers.h"
 
 namespace penumbra {
 

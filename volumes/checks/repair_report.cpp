@@ -1,7 +1,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "volumes/repair.h"
+#include "penumbra/volumes/checks/repair.h"
 
 namespace penumbra {
 

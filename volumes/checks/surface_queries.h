@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/types.h"
+#include "penumbra/mesh/types.h"
 
 namespace penumbra::detail {
 

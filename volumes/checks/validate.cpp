@@ -1,15 +1,15 @@
-#include "volumes/validate.h"
+#include "penumbra/volumes/checks/validate.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
 #include <tuple>
 
+#include "penumbra/volumes/predicates/predicates.h"
+#include "volumes/cells/shadow_reach.h"
 #include "volumes/checks/piece_list.h"
 #include "volumes/checks/surface_queries.h"
-#include "volumes/detail/predicate_tiers.h"
-#include "volumes/detail/shadow_reach.h"
-#include "volumes/predicates.h"
+#include "volumes/predicates/predicate_tiers.h"
 
 namespace penumbra {
 

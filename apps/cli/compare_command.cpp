@@ -1,0 +1,163 @@
+// penumbra compare: how wrong an image is, against another image or against rays traced from its scene.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "apps/cli/commands.h"
+#include "apps/cli/compare_picture.h"
+#include "apps/cli/comparison.h"
+#include "apps/common/messages.h"
+#include "apps/common/options.h"
+#include "apps/common/outputs.h"
+#include "penumbra/mesh/error.h"
+
+namespace penumbra::apps {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  penumbra compare dbuffer.exr scene.json
+  penumbra compare dbuffer.exr reference.exr --picture difference.png
+  penumbra compare dbuffer.exr scene.json --object 0 --json
+Errors are of visibility, the fraction of the disk seen. Against a scene two independent references are traced and the
+noise they have is taken out of the RMSE; the worst 2% of penumbra pixels (at least 1,000) are sampled again with 65,536
+rays before p99 and maximum are stated. Against an image that image is taken as it is. The interval is a 95% bootstrap
+over pixels.)";
+
+struct Arguments {
+  CommonOptions common;
+  SceneInput scene;
+  std::filesystem::path image, picture, signed_difference;
+  TraceOptions trace;
+  std::optional<int> object;
+  bool json = false;
+  double exposure = 0.0;
+
+  bool wants_pictures() const { return !picture.empty() || !signed_difference.empty(); }
+  bool against_image() const { return extension_of(scene.path) == ".exr"; }
+};
+
+void check(const Arguments& arguments) {
+  require_extension("A", arguments.image, {".exr"}, false);
+  const std::pair<const char*, const std::filesystem::path*> pictures[] = {
+      {"--picture", &arguments.picture}, {"--signed-difference", &arguments.signed_difference}};
+  for (const auto& [option, path] : pictures) {
+    if (path->empty()) continue;
+    require_extension(option, *path, {".png"}, false);  // figures go to standard output
+    require_writable(*path);
+  }
+}
+
+nlohmann::json to_json(const Arguments& arguments, const Comparison& comparison) {
+  nlohmann::json report = {
+      {"image", arguments.image.string()},        {"reference", arguments.scene.path.string()},
+      {"all", penumbra::to_json(comparison.all)}, {"penumbra", penumbra::to_json(comparison.in_penumbra)},
+      {"skipped_pixels", comparison.skipped},     {"difference_scale", difference_scale(comparison)}};
+  if (arguments.object) report["object"] = *arguments.object;
+  if (comparison.samples == 0) return report;
+  report["samples"] = comparison.samples;
+  report["resampled_pixels"] = comparison.resampled;
+  report["resamples"] = comparison.resamples;
+  report["rays"] = comparison.rays;
+  report["seconds"] = comparison.seconds;
+  report["mrays_per_second"] = 1e-6 * static_cast<double>(comparison.rays) / comparison.seconds;
+  return report;
+}
+
+std::string table_row(const char* name, const ErrorFigures& figures) {
+  char row[256];
+  std::snprintf(row, sizeof row, "%-14s %9zu  %.5f  [%.5f, %.5f]  %+.5f  %.5f  %.5f  %.5f  %.5f\n", name,
+                figures.pixels, figures.rmse, figures.rmse_low, figures.rmse_high, figures.mean,
+                figures.mean_absolute, figures.median_absolute, figures.p99_absolute, figures.max_absolute);
+  return row;
+}
+
+std::string to_table(const Comparison& comparison) {
+  std::string text =
+      "                  pixels     RMSE      95% interval          mean   |mean|   median      p99      "
+      "max\n";
+  text += table_row("all receivers", comparison.all) + table_row("true penumbra", comparison.in_penumbra);
+  char line[256];
+  if (comparison.samples > 0) {
+    std::snprintf(
+        line, sizeof line,
+        "two references of %d samples; worst %zu pixels again at %d; %.1f s, %.0f million rays a second\n",
+        comparison.samples, comparison.resampled, comparison.resamples, comparison.seconds,
+        1e-6 * static_cast<double>(comparison.rays) / comparison.seconds);
+    text += line;
+  }
+  if (comparison.skipped > 0) {
+    std::snprintf(line, sizeof line, "%zu pixels left out: their surfaces differ\n", comparison.skipped);
+    text += line;
+  }
+  return text;
+}
+
+std::string scale_line(double scale) {
+  char line[128];
+  std::snprintf(line, sizeof line, "the signed difference is blue at %+g and below, red at %+g and above\n",
+                -scale, scale);
+  return line;
+}
+
+void write_pictures(const Arguments& arguments, const Image& image, const Image* reference,
+                    const Comparison& comparison) {
+  const auto write = [](const std::filesystem::path& path, const Picture& picture) {
+    write_png(path, picture.width(), picture.height(), picture.rgb());
+  };
+  if (!arguments.signed_difference.empty())
+    write(arguments.signed_difference, difference_picture(image, comparison, difference_scale(comparison)));
+  if (!arguments.picture.empty())
+    write(arguments.picture,
+          side_by_side(image, arguments.image.stem().string(), reference,
+                       arguments.scene.path.stem().string(), comparison, arguments.exposure));
+}
+
+void run(const Arguments& arguments) {
+  check(arguments);
+  const ThreadLimit limit(arguments.common.threads);
+  const Image image = read_exr(arguments.image);
+  std::optional<Image> reference;
+  Comparison comparison;
+  if (arguments.against_image()) {
+    reference = read_exr(arguments.scene.path);
+    comparison = compare_images(image, *reference, arguments.object);
+  } else {
+    comparison = compare_to_scene(image, load(arguments.scene), arguments.object, arguments.trace);
+  }
+  std::string text = arguments.json ? to_text(to_json(arguments, comparison)) : to_table(comparison);
+  if (!arguments.json && arguments.wants_pictures()) text += scale_line(difference_scale(comparison));
+  print(text);
+  write_pictures(arguments, image, reference ? &*reference : nullptr, comparison);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app) {
+  CLI::App& command =
+      *app.add_subcommand("compare", "Error figures of an image against another image or its scene");
+  auto arguments = std::make_shared<Arguments>();
+  command.add_option("A", arguments->image, "Image to judge: an EXR written by penumbra render")->required();
+  command
+      .add_option("B", arguments->scene.path, "What is right: an EXR, or the scene that A was rendered from")
+      ->required();
+  command.add_option("--samples", arguments->trace.samples, "Rays a pixel of each of the two references")
+      ->check(CLI::Range(16, 1 << 20))
+      ->capture_default_str();
+  command.add_option("--object", arguments->object, "Judge only pixels of this object (index in the scene)")
+      ->check(CLI::NonNegativeNumber);
+  command.add_flag("--json", arguments->json, "Print JSON");
+  command
+      .add_option("--picture", arguments->picture,
+                  "Write A, B and their signed difference side by side (PNG)")
+      ->type_name("FILE");
+  command
+      .add_option("--signed-difference", arguments->signed_difference,
+                  "Write visibility of A minus B (PNG): blue too dark, red too bright")
+      ->type_name("FILE");
+  add_exposure_option(command, arguments->exposure, "Stops by which the images in --picture are brighter");
+  add_strict_option(command, arguments->scene);
+  add_common_options(command, arguments->common);
+  command.footer(kFooter);
+  command.callback([arguments] { run(*arguments); });
+}
+
+}  // namespace penumbra::apps

@@ -1,0 +1,94 @@
+#include "apps/cli/compare_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace penumbra::apps {
+namespace {
+
+constexpr Picture::Color kPaper{255, 255, 255}, kInk{20, 20, 20}, kNothing{230, 230, 230};
+constexpr int kCaption = 40, kGap = 8;
+
+Picture from_bytes(const Image& image, const std::vector<unsigned char>& rgb) {
+  Picture picture(image.width, image.height, kNothing);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const unsigned char* pixel = &rgb[static_cast<std::size_t>(y * image.width + x) * 3];
+      picture.set(x, y, {pixel[0], pixel[1], pixel[2]});
+    }
+  return picture;
+}
+
+Picture gray_picture(const Image& image, const std::vector<float>& values,
+                     const std::vector<std::uint32_t>& pixels) {
+  Picture picture(image.width, image.height, kNothing);
+  for (const std::uint32_t i : pixels) {
+    const auto gray = static_cast<unsigned char>(std::lround(255.0f * std::clamp(values[i], 0.0f, 1.0f)));
+    picture.set(static_cast<int>(i) % image.width, static_cast<int>(i) / image.width, {gray, gray, gray});
+  }
+  return picture;
+}
+
+std::string signed_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%+g", value);
+  return text;
+}
+
+// "-0.1 [blue … red] +0.1", its right end at x.
+void draw_scale(Picture& picture, int right, int y, double scale) {
+  constexpr int kBar = 96;
+  const std::string low = signed_text(-scale), high = signed_text(scale);
+  const int high_x = right - Picture::width_of(high);
+  const int bar_x = high_x - kGap - kBar;
+  picture.write(high_x, y, high, kInk);
+  picture.write(bar_x - kGap - Picture::width_of(low), y, low, kInk);
+  for (int i = 0; i < kBar; ++i) picture.fill(bar_x + i, y, 1, 14, signed_color(2.0 * i / (kBar - 1) - 1.0));
+}
+
+}  // namespace
+
+double difference_scale(const Comparison& comparison) {
+  const ErrorFigures& figures = comparison.penumbra.empty() ? comparison.all : comparison.in_penumbra;
+  for (const double scale : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5})
+    if (figures.p99_absolute <= scale) return scale;
+  return 1.0;
+}
+
+Picture difference_picture(const Image& image, const Comparison& comparison, double scale) {
+  const std::vector<float>& visibility = image.at("visibility");
+  Picture picture(image.width, image.height, kNothing);
+  for (const std::uint32_t i : comparison.judged) {
+    const double difference = double{visibility[i]} - double{comparison.reference[i]};
+    picture.set(static_cast<int>(i) % image.width, static_cast<int>(i) / image.width,
+                signed_color(difference / scale));
+  }
+  return picture;
+}
+
+Picture side_by_side(const Image& image, const std::string& name, const Image* reference,
+                     const std::string& reference_name, const Comparison& comparison, double exposure_stops) {
+  const bool colors = reference && image.has("R") && reference->has("R");
+  const auto panel = [&](const Image& source, const std::vector<float>& visibility) {
+    return colors ? from_bytes(source, encode_srgb(source, exposure_stops))
+                  : gray_picture(image, visibility, comparison.judged);
+  };
+  const double scale = difference_scale(comparison);
+  const int step = image.width + kGap;
+  Picture picture(3 * step + kGap, image.height + kCaption + kGap, kPaper);
+  picture.draw(kGap, kCaption, panel(image, image.at("visibility")));
+  picture.draw(kGap + step, kCaption, panel(reference ? *reference : image, comparison.reference));
+  picture.draw(kGap + 2 * step, kCaption, difference_picture(image, comparison, scale));
+
+  const int baseline = (kCaption - 14) / 2;
+  picture.fill(0, 0, picture.width(), kCaption, kPaper);
+  picture.write(kGap, baseline, name, kInk);
+  picture.write(kGap + step, baseline, reference_name, kInk);
+  picture.fill(kGap + 2 * step - kGap / 2, 0, picture.width(), kCaption, kPaper);
+  picture.write(kGap + 2 * step, baseline, "visibility, left - middle", kInk);
+  draw_scale(picture, picture.width() - kGap, baseline, scale);
+  return picture;
+}
+
+}  // namespace penumbra::apps

@@ -1,0 +1,38 @@
+// compare: one image's visibility against a reference, which is another image or is traced from the scene.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "penumbra/render/scene/scene.h"
+#include "render/image/error_figures.h"
+#include "render/image/image.h"
+
+namespace penumbra::apps {
+
+struct Comparison {
+  std::vector<std::uint32_t> judged;    ///< pixels that see a receiver
+  std::vector<std::uint32_t> penumbra;  ///< those in true penumbra
+  std::vector<float> reference;         ///< mean of both references, one per pixel; where judged
+  ErrorFigures all, in_penumbra;
+  int samples = 0;            ///< rays a pixel of each reference; 0: the reference is an image
+  std::size_t skipped = 0;    ///< receivers on which image and scene disagree: at outlines, by rounding
+  std::size_t resampled = 0;  ///< worst pixels sampled again before p99 and maximum were stated
+  int resamples = 0;          ///< rays of each of those
+  std::size_t rays = 0;
+  double seconds = 0.0;
+};
+
+/// The reference is taken as free of noise. Throws UsageError where the two do not show the same scene.
+Comparison compare_images(const Image& image, const Image& reference, std::optional<int> object);
+
+struct TraceOptions {
+  int samples = 4'096;  ///< of each of the two references, with seeds of their own
+  int threads = 0;
+};
+/// Throws SceneError where the image was not rendered from this scene.
+Comparison compare_to_scene(const Image& image, const Scene& scene, std::optional<int> object,
+                            const TraceOptions& options);
+
+}  // namespace penumbra::apps

@@ -1,0 +1,136 @@
+// penumbra render: one image of a scene.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "apps/cli/commands.h"
+#include "apps/cli/probe.h"
+#include "apps/common/messages.h"
+#include "apps/common/method_options.h"
+#include "apps/common/options.h"
+#include "apps/common/outputs.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/render/renderer.h"
+
+namespace penumbra::apps {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  penumbra render bunny.ply --output bunny.png
+  penumbra render scene.json --method reference --samples 1024 --size 1280x960 --output r.exr
+  penumbra render scene.json --method dbuffer --output d.exr --output d.png --stats d.json
+  penumbra render scene.json --output - | display
+Lengths are scene units, times in --stats milliseconds, visibility the fraction of the disk seen (0 to 1).)";
+
+struct Arguments {
+  CommonOptions common;
+  SceneInput scene;
+  std::string method = "dbuffer", size = "640x480", backend = "osmesa", probe;
+  std::vector<std::filesystem::path> outputs;
+  std::filesystem::path stats;
+  double exposure = 0.0;
+  RenderOptions render;
+};
+
+// Everything that can be refused without reading the scene.
+RenderOptions checked_options(const Arguments& arguments) {
+  RenderOptions options = arguments.render;
+  options.method = method_of(arguments.method);
+  options.backend = gl::backend_of(arguments.backend);
+  options.threads = arguments.common.threads;
+  const PixelPair size = parse_size(arguments.size);
+  options.width = size.x;
+  options.height = size.y;
+  if (arguments.outputs.empty() && arguments.stats.empty() && arguments.probe.empty())
+    throw UsageError("nothing to do; give --output image.png, --stats or --probe");
+  std::vector<std::filesystem::path> destinations = arguments.outputs;
+  destinations.push_back(arguments.stats);
+  if (!arguments.probe.empty()) {
+    parse_pixel(arguments.probe, size);
+    destinations.push_back("-");
+  }
+  require_one_stdout(destinations);
+  for (const auto& output : arguments.outputs) require_extension("--output", output, {".png", ".exr"}, true);
+  for (const auto& destination : destinations) require_writable(destination);
+  return options;
+}
+
+void say_stages(const RenderResult& result) {
+  for (const StageTime& stage : result.stages) {
+    char line[128];
+    std::snprintf(line, sizeof line, "%-24s %9.2f ms", stage.name.c_str(), stage.milliseconds);
+    complain(line);
+  }
+  char line[64];
+  std::snprintf(line, sizeof line, "%-24s %9.2f ms", "frame", result.frame_ms);
+  complain(line);
+}
+
+void run(const Arguments& arguments) {
+  RenderOptions options = checked_options(arguments);
+  const ThreadLimit limit(arguments.common.threads);
+  const Scene scene = load(arguments.scene);
+  RenderResult result;
+  {
+    ProgressLine progress("rendering");
+    options.progress = progress.callback();
+    result = render(scene, options);
+  }
+  if (arguments.common.verbose) say_stages(result);
+  for (const auto& output : arguments.outputs) {
+    if (extension_of(output) == ".exr")
+      write_exr(output, result.image);
+    else
+      write_png(output, result.image, arguments.exposure);
+  }
+  if (!arguments.stats.empty()) write_json(arguments.stats, result.stats);
+  if (!arguments.probe.empty())
+    print(to_text(
+        probe_pixel(scene, result, options, parse_pixel(arguments.probe, {options.width, options.height}))));
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app) {
+  CLI::App& command =
+      *app.add_subcommand("render", "An image of a scene's soft shadow, by one of several methods");
+  auto arguments = std::make_shared<Arguments>();
+  std::string methods;
+  for (const std::string& name : method_names()) methods += (methods.empty() ? "" : ", ") + name;
+
+  add_scene_input(command, arguments->scene);
+  command.add_option("-m,--method", arguments->method, "How visibility is computed: " + methods)
+      ->capture_default_str();
+  command
+      .add_option(
+          "-o,--output", arguments->outputs,
+          "Image to write, PNG (sRGB) or EXR (all channels) by extension; - is PNG on standard output; "
+          "may be repeated")
+      ->take_all()
+      ->expected(1)
+      ->type_name("FILE");
+  command.add_option("--size", arguments->size, "Pixels, WIDTHxHEIGHT")
+      ->capture_default_str()
+      ->type_name("WxH");
+  add_exposure_option(command, arguments->exposure, "Stops by which a PNG is brighter; no effect on EXR");
+  command
+      .add_option("--stats", arguments->stats,
+                  "Write method, options, stage times and counts as JSON; - is standard output")
+      ->type_name("FILE");
+  command
+      .add_option("--probe", arguments->probe,
+                  "Print what is at this pixel as JSON, with 4,096 reference rays; 0,0 is the top left")
+      ->type_name("X,Y");
+  command
+      .add_option("--warm-up", arguments->render.warm_up,
+                  "Frames rendered and thrown away before the timed one")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
+  command.add_option("--backend", arguments->backend, "OpenGL without a window: osmesa or egl")
+      ->capture_default_str();
+  add_method_options(command, arguments->render);
+  add_common_options(command, arguments->common);
+  command.footer(kFooter);
+  command.callback([arguments] { run(*arguments); });
+}
+
+}  // namespace penumbra::apps

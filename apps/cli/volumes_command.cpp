@@ -1,0 +1,207 @@
+// penumbra volumes: umbra and penumbra volumes of a scene's casters as meshes.
+#include "penumbra/volumes/volumes.h"
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+
+#include "apps/cli/commands.h"
+#include "apps/cli/reports.h"
+#include "apps/common/messages.h"
+#include "apps/common/options.h"
+#include "apps/common/outputs.h"
+#include "apps/common/scene_volumes.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/volumes/checks/checks.h"
+#include "render/light/area_light.h"
+
+namespace penumbra::apps {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  penumbra volumes bunny.ply --penumbra p.ply
+  penumbra volumes scene.json --umbra u.ply --penumbra p.ply --report -
+  penumbra volumes scene.json --sheets s.obj --cone-segments 32
+  penumbra volumes scene.json --check
+Each file holds all casters. In PLY every triangle says its object (index in the scene), kind and source (face, edge or
+vertex of that object's mesh, by kind). Inside a volume is where its winding number is at least 1: every point that an
+object partly or wholly hides from the disk is inside its penumbra volume, and only points that it wholly hides are inside
+its umbra volume: all of them where the object is one convex body (guarantee exact), else as many as the convex and
+star-shaped bodies in it hide alone (contained). --check ends with exit code 1 where a volume is not closed, or umbra, hard
+shadow and penumbra do not lie inside each other; pieces that cross each other are no fault. Sheets are facets and cone patches, closed only
+for convex casters. Lengths are scene units.)";
+
+struct Arguments {
+  CommonOptions common;
+  SceneInput scene;
+  std::filesystem::path umbra, penumbra, sheets, report;
+  bool merge = false, check = false;
+  int cone_segments = ExtrudeOptions{}.cone_segments;
+
+  bool wants_umbra() const { return !umbra.empty() || only_report() || check; }
+  bool wants_penumbra() const { return !penumbra.empty() || only_report() || check; }
+  bool wants_sheets() const { return !sheets.empty(); }
+  bool only_report() const { return umbra.empty() && penumbra.empty() && sheets.empty(); }
+};
+
+// What all casters together produced.
+struct Volumes {
+  std::vector<ShadowMesh> umbra, penumbra, sheets;
+  nlohmann::json objects = nlohmann::json::array();
+  std::size_t caster_faces = 0;
+  std::string findings;  ///< of --check, for a person
+  bool good = true;
+};
+
+void check(const Arguments& arguments) {
+  if (arguments.only_report() && arguments.report.empty() && !arguments.check)
+    throw UsageError("nothing to do; give --umbra, --penumbra, --sheets, --report or --check");
+  const std::pair<const char*, const std::filesystem::path*> meshes[] = {
+      {"--umbra", &arguments.umbra}, {"--penumbra", &arguments.penumbra}, {"--sheets", &arguments.sheets}};
+  for (const auto& [option, path] : meshes) {
+    if (path->empty()) continue;
+    require_extension(option, *path, {".ply", ".obj"}, false);
+    require_writable(*path);
+    for (const auto& [other, other_path] : meshes)
+      if (path != other_path && *path == *other_path)
+        throw UsageError(std::string(option) + " and " + other + " name the same file; choose two");
+  }
+  require_writable(arguments.report);
+}
+
+class Stages {
+ public:
+  template <class Call>
+  auto time(const char* name, Call call) {
+    const auto start = std::chrono::steady_clock::now();
+    auto result = call();
+    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
+    milliseconds_[name] = passed.count();
+    return result;
+  }
+  const nlohmann::json& milliseconds() const { return milliseconds_; }
+
+ private:
+  nlohmann::json milliseconds_ = nlohmann::json::object();
+};
+
+void add_object(const Arguments& arguments, const Scene& scene, std::size_t number, ExtrudeOptions options,
+                Volumes& volumes) {
+  const SceneObject& object = scene.objects[number];
+  const TriangleMesh& mesh = object.mesh;
+  options.object = static_cast<std::uint32_t>(number);
+  Stages stages;
+  const Classification classes = stages.time("classify", [&] { return classify_faces(mesh, scene.light); });
+  const Silhouettes silhouettes = stages.time("silhouettes", [&] { return find_silhouettes(mesh, classes); });
+  nlohmann::json report = classification_report(classes);
+  report["object"] = number;
+  report["mesh"] = object.name;
+  report["build"] = build_report(mesh.report());
+  report["silhouettes"] = silhouette_report(silhouettes);
+  const auto add = [&](const char* name, std::vector<ShadowMesh>& parts,
+                       const std::function<ShadowMesh()>& extrude) {
+    parts.push_back(stages.time(name, extrude));
+    report[name] = shadow_report(parts.back(), mesh.triangles().size());
+  };
+  if (arguments.wants_sheets())
+    add("sheets", volumes.sheets, [&] { return extrude_sheets(mesh, scene.light, silhouettes, options); });
+  if (arguments.wants_penumbra())
+    add("penumbra", volumes.penumbra, [&] { return extrude_penumbra(mesh, scene.light, classes, options); });
+  if (arguments.wants_umbra())
+    add("umbra", volumes.umbra, [&] { return convex_umbra(mesh, scene.light, classes, options); });
+  if (arguments.check) {
+    const VolumeFindings findings = stages.time("check", [&] {
+      return validate(mesh, scene.light, volumes.umbra.back(), volumes.penumbra.back(), options);
+    });
+    report["check"] = check_report(findings);
+    volumes.findings += check_text(number, object.name, findings);
+    volumes.good = volumes.good && findings.good();
+  }
+  report["milliseconds"] = stages.milliseconds();
+  volumes.objects.push_back(report);
+  volumes.caster_faces += mesh.triangles().size();
+}
+
+Volumes build_volumes(const Arguments& arguments, const Scene& scene) {
+  Volumes volumes;
+  ExtrudeOptions options = extrude_options_for(scene);
+  options.cone_segments = arguments.cone_segments;
+  ProgressLine progress("volumes");
+  options.progress = progress.callback();
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (scene.objects[i].casts) add_object(arguments, scene, i, options, volumes);
+  if (volumes.objects.empty()) complain("warning: no object of the scene casts; the volumes are empty");
+  return volumes;
+}
+
+void say(const nlohmann::json& objects) {
+  for (const nlohmann::json& object : objects)
+    for (const auto& [stage, milliseconds] : object["milliseconds"].items()) {
+      char line[128];
+      std::snprintf(line, sizeof line, "object %d %-12s %9.2f ms", object["object"].get<int>(), stage.c_str(),
+                    milliseconds.get<double>());
+      complain(line);
+    }
+}
+
+void write(const Arguments& arguments, const Volumes& volumes) {
+  nlohmann::json report = {{"objects", volumes.objects}};
+  const auto write_one = [&](const char* name, const std::filesystem::path& path,
+                             const std::vector<ShadowMesh>& parts) {
+    const ShadowMesh whole = merge(parts);
+    if (!path.empty()) write_shadow_mesh(path, whole);
+    if (arguments.merge && !parts.empty()) report["scene"][name] = shadow_report(whole, volumes.caster_faces);
+  };
+  write_one("sheets", arguments.sheets, volumes.sheets);
+  write_one("penumbra", arguments.penumbra, volumes.penumbra);
+  write_one("umbra", arguments.umbra, volumes.umbra);
+  if (!arguments.report.empty()) write_json(arguments.report, report);
+}
+
+void run(const Arguments& arguments) {
+  check(arguments);
+  const ThreadLimit limit(arguments.common.threads);
+  const Scene scene = load(arguments.scene);
+  require_disk(scene, "penumbra volumes");
+  const Volumes volumes = build_volumes(arguments, scene);
+  if (arguments.common.verbose) say(volumes.objects);
+  write(arguments, volumes);
+  if (arguments.check && arguments.report != "-") print(volumes.findings);
+  if (!volumes.good)
+    throw SystemError("the volumes did not pass --check; please report the scene with this output");
+}
+
+}  // namespace
+
+void add_volumes_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("volumes", "Umbra and penumbra volumes as meshes (PLY or OBJ)");
+  auto arguments = std::make_shared<Arguments>();
+  add_scene_input(command, arguments->scene);
+  command
+      .add_option("--umbra", arguments->umbra,
+                  "Where the whole disk is hidden (never too large; may be empty)")
+      ->type_name("FILE");
+  command.add_option("--penumbra", arguments->penumbra, "Where some of the disk is hidden (never too small)")
+      ->type_name("FILE");
+  command.add_option("--sheets", arguments->sheets, "Facets and cone patches of both, to look at")
+      ->type_name("FILE");
+  command.add_flag(
+      "--merge", arguments->merge,
+      "One volume for the whole scene (inside: winding number at least 1 over all triangles), and its "
+      "figures in the report; otherwise each object's triangles are a volume of their own");
+  command.add_flag("--check", arguments->check,
+                   "Say whether the volumes are closed, cross themselves and lie inside each other");
+  command.add_option("--cone-segments", arguments->cone_segments, "Corners of the polygon around the disk")
+      ->check(CLI::Range(3, 4'096))
+      ->capture_default_str();
+  command
+      .add_option("--report", arguments->report,
+                  "Write counts, guarantees and milliseconds of each object as JSON; - is standard output")
+      ->type_name("FILE");
+  add_common_options(command, arguments->common);
+  command.footer(kFooter);
+  command.callback([arguments] { run(*arguments); });
+}
+
+}  // namespace penumbra::apps

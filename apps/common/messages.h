@@ -1,0 +1,34 @@
+// What the program says on standard error: one line at a time, and progress where somebody watches.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "penumbra/mesh/progress.h"
+
+namespace penumbra::apps {
+
+/// "penumbra: message", as one line whatever the message holds.
+void complain(const std::string& message);
+
+/// A percentage that overwrites itself, on a terminal only. Goes away when destroyed.
+class ProgressLine {
+ public:
+  explicit ProgressLine(std::string label);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// For long calls; must not be used after this object is gone. Empty where nobody watches.
+  Progress callback();
+
+ private:
+  void show(double fraction);
+
+  std::string label_;
+  bool watched_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point next_;
+};
+
+}  // namespace penumbra::apps

@@ -1,0 +1,54 @@
+// Options that several subcommands share.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "penumbra/render/scene/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace penumbra::apps {
+
+struct CommonOptions {
+  int threads = 0;  ///< 0: all cores
+  bool verbose = false;
+};
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// Holds every parallel loop of the program to `threads` while it lives; 0 leaves all cores.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+
+ private:
+  struct Control;
+  std::unique_ptr<Control> control_;
+};
+
+struct SceneInput {
+  std::filesystem::path path;
+  bool strict = false;  ///< unknown keys are errors
+};
+void add_strict_option(CLI::App& command, SceneInput& input);
+/// SCENE as a positional argument, and --strict.
+void add_scene_input(CLI::App& command, SceneInput& input);
+/// Loads the scene; warnings go to standard error.
+Scene load(const SceneInput& input);
+
+/// --exposure, in stops.
+void add_exposure_option(CLI::App& command, double& stops, const std::string& help);
+
+struct PixelPair {
+  int x = 0, y = 0;
+};
+/// "640x480", both 1 to 16384. Throws UsageError.
+PixelPair parse_size(const std::string& text);
+/// "320,240", a pixel of an image of this size, (0, 0) at the top left. Throws UsageError.
+PixelPair parse_pixel(const std::string& text, const PixelPair& size);
+
+}  // namespace penumbra::apps

@@ -1,0 +1,15 @@
+#include "apps/common/scene_volumes.h"
+
+namespace penumbra::apps {
+
+ExtrudeOptions extrude_options_for(const Scene& scene) {
+  Bounds bounds = scene.bounds();
+  bounds.add(scene.light.center - Vec3(scene.light.radius));
+  bounds.add(scene.light.center + Vec3(scene.light.radius));
+  ExtrudeOptions options;
+  options.bound_center = bounds.center();
+  options.bound_radius = 1.01 * bounds.radius();
+  return options;
+}
+
+}  // namespace penumbra::apps

@@ -1,0 +1,12 @@
+// How far the volumes of a scene reach, the same for every program.
+#pragma once
+
+#include "penumbra/render/scene/scene.h"
+#include "penumbra/volumes/extrude.h"
+
+namespace penumbra::apps {
+
+/// The bound is a sphere around everything, light included: every volume reaches beyond it.
+ExtrudeOptions extrude_options_for(const Scene& scene);
+
+}  // namespace penumbra::apps

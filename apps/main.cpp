@@ -1,5 +1,0 @@
-#include "apps/command_line.h"
-
-int main(int argc, char** argv) {
-  return penumbra::apps::run_command_line(argc, argv);
-}

@@ -1,0 +1,158 @@
+#include "apps/viewer/pictures/overlay_geometry.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "apps/common/scene_volumes.h"
+#include "penumbra/volumes/checks/checks.h"
+#include "penumbra/volumes/volumes.h"
+
+namespace penumbra::viewer {
+namespace {
+
+struct Color {
+  unsigned char r, g, b, a;
+};
+constexpr Color kAllFront{250, 220, 90, 110}, kMixed{240, 120, 40, 130}, kNoneFront{70, 90, 200, 110};
+constexpr Color kPenumbraLine{255, 140, 30, 255}, kUmbraLine{70, 120, 255, 255},
+    kBandLine{150, 150, 150, 220};
+
+Color face_color(FaceClass face) {
+  if (face == FaceClass::kMixed) return kMixed;
+  return face == FaceClass::kAllFront ? kAllFront : kNoneFront;
+}
+
+Color sheet_color(ShadowKind kind) {
+  switch (kind) {
+    case ShadowKind::kPenumbraFacet:
+      return {255, 150, 40, 60};
+    case ShadowKind::kPenumbraCone:
+      return {255, 205, 90, 60};
+    case ShadowKind::kUmbraFacet:
+      return {70, 120, 255, 60};
+    case ShadowKind::kUmbraCap:
+      return {120, 90, 255, 90};
+    default:
+      return {255, 150, 40, 40};
+  }
+}
+
+// Many cells lie behind one another: each is then fainter.
+Color cell_color(const ShadowMesh& volume, Color color) {
+  const double share = 110.0 / std::sqrt(std::max<double>(1.0, static_cast<double>(volume.cells)));
+  color.a = static_cast<unsigned char>(std::clamp(share, 5.0, 70.0));
+  return color;
+}
+
+class Builder {
+ public:
+  Builder(const Scene& scene, const Overlays& wanted) : scene_(scene), wanted_(wanted) {
+    Bounds bounds = scene.bounds();
+    bounds.add(scene.light.center);
+    out_.origin = bounds.center();
+    out_.bound = bounds.radius() + scene.light.radius;
+    const Vec3 normal = light_frame(scene.light).w;
+    for (const SceneObject& object : scene.objects)
+      for (const Vec3& p : object.mesh.positions())
+        out_.reach = std::max(out_.reach, glm::dot(p - scene.light.center, normal));
+  }
+
+  OverlayGeometry build() {
+    ExtrudeOptions options = apps::extrude_options_for(scene_);
+    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+      const SceneObject& object = scene_.objects[i];
+      for (const IndexedTriangle& t : object.mesh.triangles())
+        triangle(out_.scene, object.mesh.positions(), t, {});
+      if (!object.casts) continue;
+      options.object = static_cast<std::uint32_t>(i);
+      add_caster(object.mesh, options);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  OverlayVertex vertex(const Vec3& p, Color c) const {
+    const Vec3 q = p - out_.origin;
+    return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), {c.r, c.g, c.b, c.a}};
+  }
+  void triangle(std::vector<OverlayVertex>& list, std::span<const Vec3> positions, const IndexedTriangle& t,
+                Color color) const {
+    for (const std::uint32_t corner : t) list.push_back(vertex(positions[corner], color));
+  }
+  void lines(const TriangleMesh& mesh, const std::vector<EdgeId>& edges, Color color) {
+    for (const EdgeId id : edges) {
+      const Edge& edge = mesh.edges()[index(id)];
+      out_.lines.push_back(vertex(mesh.position(edge.from), color));
+      out_.lines.push_back(vertex(mesh.position(edge.to), color));
+    }
+  }
+  void volume(const ShadowMesh& mesh, Color color) {
+    for (const IndexedTriangle& t : mesh.triangles)
+      triangle(out_.sheets, mesh.positions, t, cell_color(mesh, color));
+  }
+
+  void add_caster(const TriangleMesh& mesh, const ExtrudeOptions& options) {
+    const DiskLight& light = scene_.light;
+    const Classification classes = classify_faces(mesh, light);
+    const Silhouettes silhouettes = find_silhouettes(mesh, classes);
+    if (wanted_.faces)
+      for (std::size_t f = 0; f < classes.faces.size(); ++f)
+        triangle(out_.faces, mesh.positions(), mesh.triangles()[f], face_color(classes.faces[f]));
+    if (wanted_.band) lines(mesh, silhouettes.band, kBandLine);
+    if (wanted_.silhouettes) {
+      lines(mesh, silhouettes.penumbra, kPenumbraLine);
+      lines(mesh, silhouettes.umbra, kUmbraLine);
+    }
+    if (wanted_.sheets) {
+      const ShadowMesh sheets = extrude_sheets(mesh, light, silhouettes, options);
+      for (std::size_t t = 0; t < sheets.triangles.size(); ++t)
+        triangle(out_.sheets, sheets.positions, sheets.triangles[t], sheet_color(sheets.tags[t].kind));
+    }
+    if (wanted_.penumbra) volume(extrude_penumbra(mesh, light, classes, options), {255, 150, 40, 0});
+    if (wanted_.umbra) volume(convex_umbra(mesh, light, classes, options), {70, 110, 255, 0});
+  }
+
+  const Scene& scene_;
+  const Overlays& wanted_;
+  OverlayGeometry out_;
+};
+
+bool same_lists(const Overlays& a, const Overlays& b) {
+  return a.faces == b.faces && a.silhouettes == b.silhouettes && a.band == b.band && a.sheets == b.sheets &&
+         a.penumbra == b.penumbra && a.umbra == b.umbra;
+}
+
+}  // namespace
+
+OverlayGeometry make_overlay_geometry(const Scene& scene, const Overlays& wanted) {
+  return Builder(scene, wanted).build();
+}
+
+OverlayMaker::~OverlayMaker() {
+  if (task_.valid()) task_.wait();
+}
+
+bool OverlayMaker::fits(const State& state) const {
+  return state.model == made_for_.model && state.light == made_for_.light &&
+         same_lists(state.overlays, made_for_.overlays);
+}
+
+std::shared_ptr<const OverlayGeometry> OverlayMaker::update(const State& state) {
+  if (task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    ready_ = task_.get();
+  if (!state.overlays.geometry()) return nullptr;
+  if (!task_.valid() && !fits(state)) {
+    made_for_ = state;
+    task_ =
+        std::async(std::launch::async, [scene = current_scene(state), wanted = state.overlays, wake = wake_] {
+          auto made = std::make_shared<const OverlayGeometry>(make_overlay_geometry(scene, wanted));
+          wake();
+          return made;
+        });
+  }
+  return ready_;
+}
+
+}  // namespace penumbra::viewer

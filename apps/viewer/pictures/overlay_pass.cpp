@@ -1,0 +1,145 @@
+#include "apps/viewer/pictures/overlay_pass.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+#include "penumbra/volumes/disk_light.h"
+
+namespace penumbra::viewer {
+namespace {
+
+constexpr const char* kVertexShader = R"(#version 450 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 color;
+uniform mat4 to_clip;
+uniform vec4 plane;   // distance from the light's plane
+uniform float nearer; // towards the eye, in parts of the depth
+uniform vec2 shift;   // in clip units
+out vec4 shade;
+out float along;
+void main() {
+  gl_Position = to_clip * vec4(position, 1.0);
+  gl_Position.z -= nearer * gl_Position.w;
+  gl_Position.xy += shift * gl_Position.w;
+  shade = color;
+  along = dot(plane, vec4(position, 1.0));
+}
+)";
+
+constexpr const char* kFragmentShader = R"(#version 450 core
+in vec4 shade;
+in float along;
+uniform float cut;
+out vec4 color;
+void main() {
+  if (along > cut) discard;
+  color = shade;
+}
+)";
+
+/// Where sheets and volumes end: distance from a plane, in the geometry's coordinates.
+struct Cut {
+  Vec3 normal;
+  double offset, most;
+};
+
+Cut cut_of(const State& state, const OverlayGeometry& g) {
+  const Overlays& o = state.overlays;
+  if (o.cut_axis == CutAxis::kLight) {
+    const Vec3 normal = light_frame(state.light).w;
+    return {normal, glm::dot(g.origin - state.light.center, normal), o.cut * g.reach};
+  }
+  Vec3 normal(0.0);
+  normal[static_cast<int>(o.cut_axis) - static_cast<int>(CutAxis::kX)] = 1.0;
+  return {normal, g.bound, o.cut < 1.0 ? o.cut * 2.0 * g.bound : 3e38};
+}
+
+}  // namespace
+
+OverlayPass::OverlayPass(const gl::Functions& gl)
+    : gl_(gl),
+      program_(gl, {{GL_VERTEX_SHADER, "overlay.vert", kVertexShader},
+                    {GL_FRAGMENT_SHADER, "overlay.frag", kFragmentShader}}),
+      scene_(gl),
+      faces_(gl),
+      lines_(gl),
+      sheets_(gl) {}
+
+void OverlayPass::upload(List& list, const std::vector<OverlayVertex>& vertices) const {
+  list.count = static_cast<GLsizei>(vertices.size());
+  gl_.BindVertexArray(list.array);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, list.buffer);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(OverlayVertex)),
+                 vertices.data(), GL_DYNAMIC_DRAW);
+  gl_.EnableVertexAttribArray(0);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex), nullptr);
+  gl_.EnableVertexAttribArray(1);
+  gl_.VertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(OverlayVertex),
+                          reinterpret_cast<const void*>(offsetof(OverlayVertex, color)));
+  gl_.BindVertexArray(0);
+}
+
+void OverlayPass::set(std::shared_ptr<const OverlayGeometry> geometry) {
+  if (geometry == geometry_) return;
+  geometry_ = std::move(geometry);
+  if (!geometry_) return;
+  upload(scene_, geometry_->scene);
+  upload(faces_, geometry_->faces);
+  upload(lines_, geometry_->lines);
+  upload(sheets_, geometry_->sheets);
+}
+
+void OverlayPass::draw_list(const List& list, GLenum mode) const {
+  if (!list.count) return;
+  gl_.BindVertexArray(list.array);
+  gl_.DrawArrays(mode, 0, list.count);
+}
+
+void OverlayPass::draw(const State& state, int width, int height) const {
+  if (!geometry_) return;
+  const OverlayGeometry& g = *geometry_;
+  // Everything relative to g.origin, so that float is enough.
+  Camera camera = state.camera;
+  camera.eye -= g.origin;
+  camera.target -= g.origin;
+  const double distance = glm::length(camera.eye), far = distance + 3.0 * g.bound;
+  const double near = std::max(1e-3 * g.bound, distance - 3.0 * g.bound);
+  const std::array<float, 16> matrix = Projection(camera, width, height).clip_matrix(near, far);
+  const Cut cut = cut_of(state, g);
+  const float plane[4] = {static_cast<float>(cut.normal.x), static_cast<float>(cut.normal.y),
+                          static_cast<float>(cut.normal.z), static_cast<float>(cut.offset)};
+  gl_.Viewport(0, 0, width, height);
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.DepthFunc(GL_LEQUAL);
+  gl_.DepthMask(GL_TRUE);
+  const float furthest = 1.0f;
+  gl_.ClearBufferfv(GL_DEPTH, 0, &furthest);
+  program_.use();
+  gl_.UniformMatrix4fv(program_.uniform("to_clip"), 1, GL_FALSE, matrix.data());
+  gl_.Uniform4fv(program_.uniform("plane"), 1, plane);
+  gl_.Uniform1f(program_.uniform("nearer"), 0.0f);
+  gl_.Uniform2f(program_.uniform("shift"), 0.0f, 0.0f);
+  gl_.Uniform1f(program_.uniform("cut"), 3e38f);
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  draw_list(scene_, GL_TRIANGLES);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.DepthMask(GL_FALSE);
+  gl_.Uniform1f(program_.uniform("nearer"), 1e-5f);
+  draw_list(faces_, GL_TRIANGLES);
+  gl_.Uniform1f(program_.uniform("cut"), static_cast<float>(cut.most));
+  draw_list(sheets_, GL_TRIANGLES);
+  gl_.Uniform1f(program_.uniform("cut"), 3e38f);
+  gl_.Uniform1f(program_.uniform("nearer"), 4e-4f);
+  for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {0, 1}}) {  // core OpenGL draws lines one pixel wide
+    gl_.Uniform2f(program_.uniform("shift"), 2.0f * static_cast<float>(x) / static_cast<float>(width),
+                  2.0f * static_cast<float>(y) / static_cast<float>(height));
+    draw_list(lines_, GL_LINES);
+  }
+  gl_.BindVertexArray(0);
+  gl_.DepthMask(GL_TRUE);
+  gl_.Disable(GL_DEPTH_TEST);
+}
+
+}  // namespace penumbra::viewer

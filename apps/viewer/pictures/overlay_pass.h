@@ -1,0 +1,38 @@
+// Draws overlay geometry over the picture with the window's OpenGL: the scene's own triangles give depth, so
+// that what lies behind them is hidden.
+#pragma once
+
+#include <memory>
+
+#include "apps/viewer/handles/projection.h"
+#include "apps/viewer/pictures/overlay_geometry.h"
+#include "render/gl/program.h"
+
+namespace penumbra::viewer {
+
+class OverlayPass {
+ public:
+  explicit OverlayPass(const gl::Functions& gl);
+  /// Uploads when it is another one. Null: nothing will be drawn.
+  void set(std::shared_ptr<const OverlayGeometry> geometry);
+  /// Into the lower left width × height pixels of the bound framebuffer; blending must be on. Changes GL
+  /// state freely.
+  void draw(const State& state, int width, int height) const;
+
+ private:
+  struct List {
+    explicit List(const gl::Functions& gl)
+        : array(gl, gl::Object::Kind::kVertexArray), buffer(gl, gl::Object::Kind::kBuffer) {}
+    gl::Object array, buffer;
+    GLsizei count = 0;
+  };
+  void upload(List& list, const std::vector<OverlayVertex>& vertices) const;
+  void draw_list(const List& list, GLenum mode) const;
+
+  const gl::Functions& gl_;
+  gl::Program program_;
+  List scene_, faces_, lines_, sheets_;
+  std::shared_ptr<const OverlayGeometry> geometry_;
+};
+
+}  // namespace penumbra::viewer

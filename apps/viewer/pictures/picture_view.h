@@ -1,0 +1,35 @@
+// The picture's part of the window: textures of the latest frame, divider, labels, the light.
+#pragma once
+
+#include <memory>
+
+#include "apps/viewer/handles/pointer.h"
+#include "apps/viewer/pictures/picture_texture.h"
+#include "apps/viewer/state/state.h"
+#include "apps/viewer/work/render_worker.h"
+
+struct ImDrawList;
+
+namespace penumbra::viewer {
+
+class PictureView {
+ public:
+  explicit PictureView(const gl::Functions& gl) : left_(gl), right_(gl), difference_(gl), textures_(gl) {}
+  /// Uploads what has changed since the last call.
+  void update(const State& state, std::shared_ptr<const Frame> frame);
+  /// The pictures, into ImGui's background.
+  void draw_picture(const State& state) const;
+  /// What lies over them: divider, names, a note while it is a draft, the light.
+  void draw_marks(const State& state, const Pointer& pointer, bool settled) const;
+  const Frame* frame() const { return frame_.get(); }
+
+ private:
+  void draw_textures(ImDrawList& list, float width, float height) const;
+
+  PictureTexture left_, right_, difference_, textures_;
+  std::shared_ptr<const Frame> frame_;
+  double exposure_ = 0.0, scale_ = 0.0;
+  Shown shown_ = Shown::kPicture;
+};
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,66 @@
+// What the viewer shows: a scene, its light and camera as they are now, and how they are looked at.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "penumbra/render/renderer.h"
+
+namespace penumbra::viewer {
+
+enum class Arrangement { kSingle, kSplit, kDifference };
+
+/// What of the picture is shown.
+enum class Shown {
+  kPicture,     ///< colours
+  kVisibility,  ///< the fraction of the disk, black to white
+  kRegion,      ///< what is certified: yellow lit, orange partial, blue umbra; grey nothing
+};
+
+/// Across what sheets and volumes are cut.
+enum class CutAxis { kLight, kX, kY, kZ };
+
+/// What is drawn over the picture.
+struct Overlays {
+  bool light = true;         ///< the light's disk and handles
+  bool faces = false;        ///< casters' faces by class
+  bool silhouettes = false;  ///< penumbra and umbra silhouettes
+  bool band = false;         ///< every edge that may be a silhouette
+  bool sheets = false;       ///< facets and cone patches of both boundaries
+  bool penumbra = false;     ///< the closed volume
+  bool umbra = false;        ///< the closed volume
+  bool textures = false;     ///< what the D-buffer or the occlusion textures hold
+  double cut = 1.0;  ///< sheets and volumes are drawn up to this part of the way: from the light's plane to
+                     ///< the scene's far end, or along an axis through everything
+  CutAxis cut_axis = CutAxis::kLight;
+  bool geometry() const { return faces || silhouettes || band || sheets || penumbra || umbra; }
+};
+
+struct State {
+  std::filesystem::path path;          ///< the scene or mesh it was loaded from
+  std::shared_ptr<const Scene> model;  ///< as loaded; never null once something is open
+  DiskLight light;
+  Vec3 radiance{10.0};
+  Camera camera;
+  RenderOptions left, right;  ///< right: the second method of split and difference
+  Arrangement arrangement = Arrangement::kSingle;
+  Shown shown = Shown::kPicture;
+  double divider = 0.5;           ///< part of the width that shows the left method
+  double exposure = 0.0;          ///< stops
+  double difference_scale = 0.1;  ///< visibility that saturates the colours
+  Overlays overlays;
+  bool probe = false;
+  int revision = 0;  ///< grows whenever a method or a setting changes
+
+  bool two_sided() const { return arrangement != Arrangement::kSingle; }
+};
+
+/// The loaded scene with the light and the camera of the state.
+Scene current_scene(const State& state);
+
+/// A state that shows `loaded`, x-viewer of its file included. Settings that x-viewer does not name are those
+/// of `before`. What x-viewer holds that is not understood becomes a warning.
+State opened(const std::filesystem::path& path, LoadedScene& loaded, const State& before);
+
+}  // namespace penumbra::viewer

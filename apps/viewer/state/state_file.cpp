@@ -1,0 +1,147 @@
+#include "apps/viewer/state/state_file.h"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include "apps/common/outputs.h"
+#include "apps/viewer/state/method_settings.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/mesh/io/polygon_soup.h"
+
+namespace penumbra::viewer {
+namespace {
+
+constexpr std::array kArrangements{std::pair(Arrangement::kSingle, "single"),
+                                   std::pair(Arrangement::kSplit, "split"),
+                                   std::pair(Arrangement::kDifference, "difference")};
+
+constexpr std::array kShown{std::pair(Shown::kPicture, "picture"),
+                            std::pair(Shown::kVisibility, "visibility"),
+                            std::pair(Shown::kRegion, "certified")};
+
+constexpr std::array kCutAxes{std::pair(CutAxis::kLight, "light"), std::pair(CutAxis::kX, "x"),
+                              std::pair(CutAxis::kY, "y"), std::pair(CutAxis::kZ, "z")};
+
+constexpr std::array kFlags{std::pair("light", &Overlays::light),
+                            std::pair("faces", &Overlays::faces),
+                            std::pair("silhouettes", &Overlays::silhouettes),
+                            std::pair("band", &Overlays::band),
+                            std::pair("sheets", &Overlays::sheets),
+                            std::pair("penumbra", &Overlays::penumbra),
+                            std::pair("umbra", &Overlays::umbra),
+                            std::pair("textures", &Overlays::textures)};
+
+nlohmann::json to_json(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::json to_json(const RenderOptions& options) {
+  nlohmann::json json = {{"method", name_of(options.method)}};
+  for (const Setting& each : settings_of(options)) json[each.name] = each.value;
+  return json;
+}
+
+void read(const nlohmann::json& json, RenderOptions& options) {
+  options.method = method_of(json.at("method").get<std::string>());
+  for (const auto& [name, value] : json.items())
+    if (name != "method") set(options, name, value.get<std::string>());
+}
+
+nlohmann::json viewer_settings(const State& state) {
+  nlohmann::json json = {{"left", to_json(state.left)},
+                         {"right", to_json(state.right)},
+                         {"divider", state.divider},
+                         {"exposure", state.exposure},
+                         {"difference_scale", state.difference_scale},
+                         {"cut", state.overlays.cut},
+                         {"probe", state.probe}};
+  for (const auto& [value, name] : kArrangements)
+    if (value == state.arrangement) json["arrangement"] = name;
+  for (const auto& [value, name] : kShown)
+    if (value == state.shown) json["shown"] = name;
+  for (const auto& [value, name] : kCutAxes)
+    if (value == state.overlays.cut_axis) json["cut_axis"] = name;
+  for (const auto& [name, flag] : kFlags) json["overlays"][name] = state.overlays.*flag;
+  return json;
+}
+
+// A path that leads from the new file's folder to what the old one named.
+std::string moved_path(const std::string& mesh, const std::filesystem::path& from_folder,
+                       const std::filesystem::path& to_folder) {
+  const std::filesystem::path absolute = std::filesystem::absolute(from_folder / mesh).lexically_normal();
+  return absolute.lexically_proximate(std::filesystem::absolute(to_folder).lexically_normal()).string();
+}
+
+// The objects of a document made for a bare mesh leave out the floor, which has no file.
+nlohmann::json floor_entry(const std::filesystem::path& path, const SceneObject& floor) {
+  const std::string name = path.stem().string() + "-floor.ply";
+  write_mesh(path.parent_path() / name, floor.mesh);
+  return {{"mesh", name}, {"albedo", to_json(floor.albedo)}, {"casts", floor.casts}};
+}
+
+nlohmann::json scene_document(const std::filesystem::path& path, const State& state) {
+  nlohmann::json document = state.model->document;
+  const bool bare = state.model->objects.size() != document["objects"].size();
+  const std::filesystem::path folder = bare ? std::filesystem::path() : state.path.parent_path();
+  for (nlohmann::json& object : document["objects"])
+    object["mesh"] = moved_path(object["mesh"].get<std::string>(), folder, path.parent_path());
+  if (bare) {
+    document["objects"].insert(document["objects"].begin(), floor_entry(path, state.model->objects.front()));
+    document.erase("x-made-for");
+  }
+  nlohmann::json& light = document["lights"][0];
+  light["center"] = to_json(state.light.center);
+  light["normal"] = to_json(state.light.normal);
+  light["radius"] = state.light.radius;
+  light["radiance"] = to_json(state.radiance);
+  document["camera"] = {{"eye", to_json(state.camera.eye)},
+                        {"target", to_json(state.camera.target)},
+                        {"up", to_json(state.camera.up)},
+                        {"fov_y_degrees", state.camera.fov_y_degrees}};
+  document["x-viewer"] = viewer_settings(state);
+  return document;
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace
+
+void save_state(const std::filesystem::path& path, const State& state) {
+  apps::require_writable(path);
+  apps::write_json(path, scene_document(path, state));
+}
+
+void read_viewer_settings(const nlohmann::json& settings, State& state) {
+  read(settings.at("left"), state.left);
+  read(settings.at("right"), state.right);
+  for (const auto& [value, name] : kArrangements)
+    if (settings.value("arrangement", "") == name) state.arrangement = value;
+  for (const auto& [value, name] : kShown)
+    if (settings.value("shown", "") == name) state.shown = value;
+  for (const auto& [value, name] : kCutAxes)
+    if (settings.value("cut_axis", "") == name) state.overlays.cut_axis = value;
+  state.divider = settings.value("divider", state.divider);
+  state.exposure = settings.value("exposure", state.exposure);
+  state.difference_scale = settings.value("difference_scale", state.difference_scale);
+  state.overlays.cut = settings.value("cut", state.overlays.cut);
+  state.probe = settings.value("probe", state.probe);
+  const nlohmann::json overlays = settings.value("overlays", nlohmann::json::object());
+  for (const auto& [name, flag] : kFlags) state.overlays.*flag = overlays.value(name, state.overlays.*flag);
+}
+
+std::string headless_command(const std::filesystem::path& scene, const State& state) {
+  char size[64];
+  std::snprintf(size, sizeof size, " --size %dx%d", state.left.width, state.left.height);
+  std::string command =
+      "penumbra render " + quoted(scene.string()) + " --method " + name_of(state.left.method) + size;
+  command += settings_arguments(state.left);
+  if (state.exposure != 0.0) command += " --exposure " + nlohmann::json(state.exposure).dump();
+  return command + " --output " + quoted(scene.stem().string() + ".png");
+}
+
+}  // namespace penumbra::viewer

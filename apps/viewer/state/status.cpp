@@ -1,0 +1,75 @@
+#include "apps/viewer/state/status.h"
+
+#include "apps/common/outputs.h"
+#include "apps/viewer/handles/light_handles.h"
+
+namespace penumbra::viewer {
+namespace {
+
+nlohmann::json to_json(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+nlohmann::json handle_places(const State& state) {
+  const Projection projection(state.camera, state.left.width, state.left.height);
+  const HandleShape shape = handle_shape(state.light, projection);
+  nlohmann::json places = nlohmann::json::object();
+  const auto add = [&](Handle handle, const Vec3& p) {
+    if (const auto at = projection.project(p)) places[name_of(handle)] = {at->x, at->y};
+  };
+  add(Handle::kAxisX, shape.axis_tips[0]);
+  add(Handle::kAxisY, shape.axis_tips[1]);
+  add(Handle::kAxisZ, shape.axis_tips[2]);
+  add(Handle::kCenter, shape.center);
+  add(Handle::kRim, shape.rim_knob);
+  add(Handle::kNormal, shape.normal_tip);
+  return places;
+}
+
+nlohmann::json report(const StatusInput& input) {
+  const State& state = input.state;
+  nlohmann::json json = {
+      {"settled", input.settled},
+      {"holding", input.holding},
+      {"message", input.message},
+      {"file", state.path.string()},
+      {"method", name_of(state.left.method)},
+      {"against", name_of(state.right.method)},
+      {"arrangement", static_cast<int>(state.arrangement)},
+      {"divider", state.divider},
+      {"shown", static_cast<int>(state.shown)},
+      {"cut", state.overlays.cut},
+      {"cut_axis", static_cast<int>(state.overlays.cut_axis)},
+      {"minimised", input.minimised},
+      {"picture", {state.left.width, state.left.height}},
+      {"light",
+       {{"center", to_json(state.light.center)},
+        {"normal", to_json(state.light.normal)},
+        {"radius", state.light.radius}}},
+      {"camera", {{"eye", to_json(state.camera.eye)}, {"target", to_json(state.camera.target)}}},
+      {"handles", handle_places(state)}};
+  for (const auto& [name, at] : input.places) json["widgets"][name] = {at.x, at.y};
+  if (!input.frame) return json;
+  json["frame"] = {{"number", input.frame->number},
+                   {"final", input.frame->final},
+                   {"reduction", input.frame->reduction},
+                   {"refining", input.frame->refining},
+                   {"milliseconds", input.frame->milliseconds},
+                   {"trouble", input.frame->trouble},
+                   {"per_second", input.per_second}};
+  for (const Side& side : input.frame->sides) json["frame"]["rays"].push_back(side.rays);
+  return json;
+}
+
+}  // namespace
+
+void StatusFile::update(const StatusInput& input) {
+  if (path_.empty()) return;
+  const nlohmann::json json = report(input);
+  if (std::string text = apps::to_text(json); text != written_) {
+    apps::write_json(path_, json);
+    written_ = std::move(text);
+  }
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,91 @@
+#include "apps/viewer/work/exports.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+
+#include "apps/common/scene_volumes.h"
+#include "mesh/vectors.h"
+#include "penumbra/volumes/checks/checks.h"
+#include "penumbra/volumes/volumes.h"
+
+namespace penumbra::viewer {
+namespace {
+
+constexpr int kPictures = 24;  // of a sequence
+
+}  // namespace
+
+std::string export_volumes(const std::filesystem::path& folder, const State& state) {
+  const Scene scene = current_scene(state);
+  ExtrudeOptions options = apps::extrude_options_for(scene);
+  std::vector<ShadowMesh> sheets, penumbra, umbra;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const TriangleMesh& mesh = scene.objects[i].mesh;
+    if (!scene.objects[i].casts) continue;
+    options.object = static_cast<std::uint32_t>(i);
+    const Classification classes = classify_faces(mesh, scene.light);
+    sheets.push_back(extrude_sheets(mesh, scene.light, find_silhouettes(mesh, classes), options));
+    penumbra.push_back(extrude_penumbra(mesh, scene.light, classes, options));
+    umbra.push_back(convex_umbra(mesh, scene.light, classes, options));
+  }
+  const std::string stem = state.path.stem().string();
+  write_shadow_mesh(folder / (stem + "-sheets.ply"), merge(sheets));
+  write_shadow_mesh(folder / (stem + "-penumbra.ply"), merge(penumbra));
+  write_shadow_mesh(folder / (stem + "-umbra.ply"), merge(umbra));
+  return "saved " + (folder / (stem + "-{sheets,penumbra,umbra}.ply")).string();
+}
+
+DiskLight light_on_path(const State& state, double t) {
+  const DiskLight &from = state.model->light, &to = state.light;
+  if (t >= 1.0) return to;
+  DiskLight light = from;
+  light.center = (1.0 - t) * from.center + t * to.center;
+  light.radius = std::lerp(from.radius, to.radius, t);
+  const Vec3 normal = (1.0 - t) * detail::unit(from.normal) + t * detail::unit(to.normal);
+  if (detail::largest_component(normal) > 1e-6)
+    light.normal = normal;  // opposite ends: the start's, until the end
+  return light;
+}
+
+std::string export_sequence(const std::filesystem::path& folder, const State& state) {
+  Scene scene = current_scene(state);
+  Renderer renderer(scene, state.left);
+  for (int i = 0; i < kPictures; ++i) {
+    scene.light = light_on_path(state, static_cast<double>(i) / (kPictures - 1));
+    renderer.follow_light(state.left);
+    char end[32];
+    std::snprintf(end, sizeof end, "-path-%03d.png", i + 1);
+    write_png(folder / (state.path.stem().string() + end), renderer.render_frame(state.left).image,
+              state.exposure);
+  }
+  return "saved " + std::to_string(kPictures) + " pictures " +
+         (folder / (state.path.stem().string() + "-path-*.png")).string();
+}
+
+Exports::~Exports() {
+  if (task_.valid()) task_.wait();
+}
+
+std::string Exports::start(std::string (*work)(const std::filesystem::path&, const State&),
+                           const std::filesystem::path& folder, const State& state) {
+  if (task_.valid()) return "another export is still running";
+  task_ = std::async(std::launch::async, [work, folder, state, wake = wake_] {
+    std::string line;
+    try {
+      line = work(folder, state);
+    } catch (const std::exception& e) {
+      line = e.what();
+    }
+    wake();
+    return line;
+  });
+  return "exporting";
+}
+
+std::string Exports::news() {
+  const bool done = task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  return done ? task_.get() : std::string();
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,232 @@
+#include "apps/viewer/work/render_worker.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <exception>
+
+#include "penumbra/mesh/error.h"
+#include "render/shading/shading.h"
+
+namespace penumbra::viewer {
+namespace {
+
+constexpr int kPreviewRays = 16;
+
+double milliseconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool is_reference(const RenderOptions& options) {
+  return options.method == Method::kReference;
+}
+
+bool has_reference(const std::vector<RenderOptions>& sides) {
+  return std::any_of(sides.begin(), sides.end(), is_reference);
+}
+
+/// The mean of several images' visibility; odd and even ones are kept apart, as two independent references.
+class Accumulator {
+ public:
+  void add(const std::vector<float>& visibility) {
+    std::vector<double>& sum = sums_[static_cast<std::size_t>(passes_ % 2)];
+    sum.resize(visibility.size());
+    for (std::size_t i = 0; i < visibility.size(); ++i) sum[i] += double{visibility[i]};
+    ++passes_;
+  }
+  int passes() const { return passes_; }
+  std::vector<float> mean() const {
+    std::vector<float> out(sums_[0].size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = static_cast<float>((sums_[0][i] + (passes_ > 1 ? sums_[1][i] : 0.0)) / passes_);
+    return out;
+  }
+  std::vector<float> half(int which) const {
+    const int count = (passes_ + 1 - which) / 2;
+    std::vector<float> out;
+    for (const double sum : sums_[static_cast<std::size_t>(which)])
+      out.push_back(static_cast<float>(sum / count));
+    return out;
+  }
+
+ private:
+  std::array<std::vector<double>, 2> sums_;
+  int passes_ = 0;
+};
+
+std::optional<ErrorFigures> error_of(const Frame& frame, const Accumulator& reference) {
+  if (frame.sides.size() != 2 || reference.passes() < 2) return std::nullopt;
+  for (const Side& side : frame.sides) {
+    if (is_reference(side.options)) continue;
+    const SurfaceBuffer& surface = side.result->surface;
+    std::vector<std::uint32_t> seen;
+    for (std::uint32_t i = 0; i < surface.size(); ++i)
+      if (surface.hit(i)) seen.push_back(i);
+    const std::vector<float> first = reference.half(0), second = reference.half(1);
+    const std::vector<std::uint32_t> judged = true_penumbra(first, second, seen);
+    return error_figures(side.result->image.at("visibility"), first, second, judged);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+RenderWorker::RenderWorker(std::function<void()> notify)
+    : notify_(std::move(notify)), thread_([this] { run(); }) {}
+
+RenderWorker::~RenderWorker() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+
+void RenderWorker::submit(RenderJob job) {
+  {
+    const std::lock_guard lock(mutex_);
+    wish_ = std::move(job);
+  }
+  wake_.notify_one();
+}
+
+std::shared_ptr<const Frame> RenderWorker::latest() const {
+  const std::lock_guard lock(mutex_);
+  return latest_;
+}
+
+bool RenderWorker::outdated() const {
+  const std::lock_guard lock(mutex_);
+  return stop_ || wish_.has_value();
+}
+
+void RenderWorker::publish(Frame frame) {
+  {
+    const std::lock_guard lock(mutex_);
+    latest_ = std::make_shared<const Frame>(std::move(frame));
+  }
+  notify_();
+}
+
+void RenderWorker::run() {
+  for (;;) {
+    RenderJob job;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return stop_ || wish_.has_value(); });
+      if (stop_) break;
+      job = std::move(*wish_);
+      wish_.reset();
+    }
+    Frame failed = first_frame(job);
+    try {
+      answer(job);
+      continue;
+    } catch (const Cancelled&) {
+      continue;  // a newer wish is waiting
+    } catch (const std::exception& e) {
+      failed.trouble = e.what();
+    }
+    failed.final = true;
+    publish(std::move(failed));
+  }
+  renderer_.reset();  // its context belongs to this thread
+}
+
+Frame RenderWorker::first_frame(const RenderJob& job) const {
+  Frame frame;
+  frame.number = job.number;
+  frame.light = job.light;
+  frame.camera = job.camera;
+  return frame;
+}
+
+void RenderWorker::adopt(const RenderJob& job) {
+  const bool other_model = model_ != job.model;
+  if (other_model) {
+    renderer_.reset();
+    scene_ = *job.model;
+    model_ = job.model;
+  }
+  scene_.light = job.light;
+  scene_.radiance = job.radiance;
+  scene_.camera = job.camera;
+  // A draft does without the last digits that the rays' frame gives.
+  const bool follows = !renderer_ || (!job.moving && followed_ != job.light);
+  if (!follows) return;
+  if (renderer_)
+    renderer_->follow_light(job.sides.front());
+  else
+    renderer_ = std::make_unique<Renderer>(scene_, job.sides.front());
+  followed_ = job.light;
+}
+
+void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOptions>& options,
+                                Frame& frame) {
+  const auto start = std::chrono::steady_clock::now();
+  adopt(job);
+  frame.sides.clear();
+  for (RenderOptions each : options) {
+    each.progress = [this](double) { return !outdated(); };
+    each.reuse = true;
+    Side side{.result = std::make_shared<const RenderResult>(renderer_->render_frame(each)),
+              .options = each,
+              .rays = is_reference(each) ? each.reference.samples : 0};
+    frame.sides.push_back(std::move(side));
+  }
+  frame.milliseconds = milliseconds_since(start);
+}
+
+void RenderWorker::answer(const RenderJob& job) {
+  Frame frame = first_frame(job);
+  std::vector<RenderOptions> options = job.sides;
+  if (job.moving) {
+    for (RenderOptions& each : options) each = draft_.draft_of(each);
+    frame.reduction = draft_.reduction();
+    render_sides(job, options, frame);
+    draft_.took(frame.milliseconds);
+    return publish(std::move(frame));
+  }
+  if (has_reference(options)) {  // something to look at until all rays are traced
+    for (RenderOptions& each : options)
+      each.reference.samples = std::min(each.reference.samples, kPreviewRays);
+    render_sides(job, options, frame);
+    frame.refining = true;
+    publish(frame);
+  }
+  render_sides(job, job.sides, frame);
+  frame.final = true;
+  frame.refining = has_reference(job.sides) && job.refine_to > 0;
+  publish(frame);
+  if (frame.refining) refine(job, std::move(frame));
+}
+
+void RenderWorker::refine(const RenderJob& job, Frame frame) {
+  Accumulator reference;
+  const auto first = std::find_if(frame.sides.begin(), frame.sides.end(),
+                                  [](const Side& side) { return is_reference(side.options); });
+  RenderOptions options = first->options;
+  options.reuse = true;
+  const std::uint64_t seed = options.reference.seed;
+  reference.add(first->result->image.at("visibility"));
+  while (frame.refining) {
+    options.reference.seed = seed + static_cast<std::uint64_t>(reference.passes());
+    RenderResult pass = renderer_->render_frame(options);
+    reference.add(pass.image.at("visibility"));
+    pass.image = shade(scene_, pass.surface, reference.mean(), options.threads);
+    const auto result = std::make_shared<const RenderResult>(std::move(pass));
+    const int rays = options.reference.samples * reference.passes();
+    for (Side& side : frame.sides)
+      if (is_reference(side.options)) {
+        side.result = result;
+        side.rays = rays;
+      }
+    frame.refining = rays < job.refine_to;
+    frame.error = error_of(frame, reference);
+    if (outdated()) return;
+    publish(frame);
+  }
+}
+
+}  // namespace penumbra::viewer

@@ -1,0 +1,90 @@
+// Pictures in the background: a thread of its own with its own renderer and context, so that the window never
+// waits. Only the latest wish counts; what is under way for an older one is dropped where it can be.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "apps/viewer/work/draft.h"
+#include "penumbra/render/renderer.h"
+#include "render/image/error_figures.h"
+
+namespace penumbra::viewer {
+
+struct RenderJob {
+  std::uint64_t number = 0;            ///< grows with each wish
+  std::shared_ptr<const Scene> model;  ///< objects; its light and camera are not used
+  DiskLight light;
+  Vec3 radiance{10.0};
+  Camera camera;
+  std::vector<RenderOptions> sides;  ///< one or two pictures
+  bool moving = false;               ///< a draft will do
+  int refine_to = 0;  ///< rays a pixel up to which a reference is refined; 0: no more than its setting
+};
+
+struct Side {
+  std::shared_ptr<const RenderResult> result;
+  RenderOptions options;  ///< as rendered
+  int rays = 0;           ///< a pixel, of a reference
+};
+
+/// One answer. Never changed once published.
+struct Frame {
+  std::uint64_t number = 0;   ///< of the job
+  bool final = false;         ///< everything as asked for; false: a draft, or a reference with few rays
+  int reduction = 1;          ///< of a draft
+  bool refining = false;      ///< more rays are on their way
+  double milliseconds = 0.0;  ///< wall clock, all sides, set-up included
+  DiskLight light;
+  Camera camera;
+  std::vector<Side> sides;
+  std::optional<ErrorFigures> error;  ///< of the side that is no reference, over true penumbra
+  std::string trouble;                ///< why there are no sides
+};
+
+class RenderWorker {
+ public:
+  /// `notify` is called from the thread whenever a frame is ready.
+  explicit RenderWorker(std::function<void()> notify);
+  ~RenderWorker();
+  RenderWorker(const RenderWorker&) = delete;
+  RenderWorker& operator=(const RenderWorker&) = delete;
+
+  void submit(RenderJob job);
+  /// The newest frame; null before the first.
+  std::shared_ptr<const Frame> latest() const;
+
+ private:
+  void run();
+  void answer(const RenderJob& job);
+  void adopt(const RenderJob& job);
+  Frame first_frame(const RenderJob& job) const;
+  void render_sides(const RenderJob& job, const std::vector<RenderOptions>& options, Frame& frame);
+  void refine(const RenderJob& job, Frame frame);
+  void publish(Frame frame);
+  bool outdated() const;
+
+  std::function<void()> notify_;
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  std::optional<RenderJob> wish_;
+  std::shared_ptr<const Frame> latest_;
+  bool stop_ = false;
+
+  // Only the thread's:
+  std::shared_ptr<const Scene> model_;
+  Scene scene_;
+  std::unique_ptr<Renderer> renderer_;
+  DiskLight followed_;  ///< the light that the renderer's rays are framed for
+  DraftPolicy draft_;
+  std::thread thread_;
+};
+
+}  // namespace penumbra::viewer

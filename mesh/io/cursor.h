@@ -1,0 +1,146 @@
+// Reading hostile text and bytes: cursors that never leave their buffer and say where they are when something
+// is wrong. Every failure is a MeshError of one line: "file: line 12: what; what to do".
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "penumbra/mesh/io/polygon_soup.h"
+
+namespace penumbra::detail {
+
+/// Throws MeshError. `where` may be empty ("line 12" or "byte 340" otherwise).
+[[noreturn]] void fail_reading(const std::string& name, const std::string& where, const std::string& what,
+                               const std::string& advice);
+/// Text from a file, made fit for a message: printable, at most 32 characters, in quotes.
+std::string quote(std::string_view text);
+std::string_view as_text(std::span<const std::byte> bytes);
+
+/// A decimal number that takes up the whole token, a leading + allowed; infinite where it overflows, 0 where
+/// it underflows. Returns false where the token is no number. The locale plays no part.
+bool parse_number(std::string_view token, double& value);
+bool parse_number(std::string_view token, std::int64_t& value);
+
+/// Tokens and lines. Lines end in \n, \r\n or \r; a comment runs from `comment` (0 for none) to the end of
+/// its line.
+class TextCursor {
+ public:
+  TextCursor(std::string_view text, std::string name, char comment, bool joins_lines = false);
+
+  /// The next token of this line; empty at its end.
+  std::string_view token_of_line();
+  /// The next token, on whichever line; empty at the end of the text.
+  std::string_view token();
+  void skip_line();
+  bool at_end() const { return at_ == text_.size(); }
+
+  /// Numbers, on whichever line. `what` names the value in the message ("a coordinate of vertex 3").
+  double number(const std::string& what);
+  std::int64_t integer(const std::string& what);
+
+  std::size_t line() const { return line_; }
+  std::size_t offset() const { return at_; }
+  std::size_t remaining() const { return text_.size() - at_; }
+  const std::string& name() const { return name_; }
+  [[noreturn]] void fail(const std::string& what, const std::string& advice) const;
+  [[noreturn]] void fail_truncated(const std::string& expected) const;
+
+ private:
+  void skip_blanks();
+  std::string_view text_;
+  std::string name_;
+  char comment_;
+  bool joins_lines_;  ///< a backslash at the end of a line continues it
+  std::size_t at_ = 0, line_ = 1;
+};
+
+/// Numbers in binary.
+class ByteCursor {
+ public:
+  ByteCursor(std::span<const std::byte> bytes, std::string name, std::endian order)
+      : bytes_(bytes), name_(std::move(name)), swap_(order != std::endian::native) {}
+
+  template <class T>
+  T read() {
+    if (remaining() < sizeof(T)) {
+      fail("the file ends in the middle of the data", "it is truncated; copy or export it again");
+    }
+    std::byte raw[sizeof(T)];
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      raw[swap_ ? sizeof(T) - 1 - i : i] = bytes_[at_ + i];
+    }
+    at_ += sizeof(T);
+    T value;
+    std::memcpy(&value, raw, sizeof(T));
+    return value;
+  }
+  void skip(std::size_t count) { at_ += std::min(count, remaining()); }
+  std::size_t remaining() const { return bytes_.size() - at_; }
+  [[noreturn]] void fail(const std::string& what, const std::string& advice) const {
+    fail_reading(name_, "byte " + std::to_string(at_), what, advice);
+  }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::string name_;
+  bool swap_;
+  std::size_t at_ = 0;
+};
+
+/// Collects a soup and checks each coordinate and index as it comes.
+template <class Cursor>
+class SoupBuilder {
+ public:
+  explicit SoupBuilder(const Cursor& cursor) : cursor_(cursor) { soup_.first_corner.push_back(0); }
+
+  std::size_t vertex_count() const { return soup_.positions.size(); }
+  std::size_t polygon_count() const { return soup_.polygon_count(); }
+  /// Only for counts already checked against the size of the file.
+  void reserve(std::size_t vertices, std::size_t polygons) {
+    soup_.positions.reserve(vertices);
+    soup_.first_corner.reserve(polygons + 1);
+    soup_.corners.reserve(3 * polygons);
+  }
+  void add_vertex(const Vec3& p);
+  /// `vertex` counts from 0. Whether there is such a vertex is checked at the end, since faces may come
+  /// first.
+  void add_corner(std::int64_t vertex);
+  void end_polygon() { soup_.first_corner.push_back(static_cast<std::uint32_t>(soup_.corners.size())); }
+  std::size_t open_corners() const { return soup_.corners.size() - soup_.first_corner.back(); }
+  PolygonSoup take() && { return std::move(soup_); }
+
+ private:
+  static constexpr std::size_t kMost = 0xFFFFFFFEu;
+  const Cursor& cursor_;
+  PolygonSoup soup_;
+};
+
+template <class Cursor>
+void SoupBuilder<Cursor>::add_vertex(const Vec3& p) {
+  // x - x is 0 for every finite x and NaN for any other.
+  if (!(p.x - p.x == 0.0 && p.y - p.y == 0.0 && p.z - p.z == 0.0)) {
+    cursor_.fail("vertex " + std::to_string(vertex_count()) + " has a coordinate that is not finite",
+                 "export the mesh without NaN, infinity or overflow");
+  }
+  if (vertex_count() >= kMost) {
+    cursor_.fail("more vertices than can be numbered", "split the mesh");
+  }
+  soup_.positions.push_back(p);
+}
+
+template <class Cursor>
+void SoupBuilder<Cursor>::add_corner(std::int64_t vertex) {
+  if (vertex < 0 || vertex >= static_cast<std::int64_t>(kMost) || soup_.corners.size() >= kMost) {
+    cursor_.fail("face " + std::to_string(polygon_count()) + " uses vertex " + std::to_string(vertex) +
+                     ", which cannot exist",
+                 "correct the indices");
+  }
+  soup_.corners.push_back(static_cast<std::uint32_t>(vertex));
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,138 @@
+#include "penumbra/mesh/io/polygon_soup.h"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "mesh/io/cursor.h"
+#include "mesh/io/readers.h"
+#include "penumbra/mesh/error.h"
+
+namespace penumbra {
+namespace {
+
+namespace fs = std::filesystem;
+using Reader = PolygonSoup (*)(std::span<const std::byte>, const std::string&);
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return extension;
+}
+
+/// By magic word, then by extension, then by the size that only a binary STL file has.
+Reader choose_reader(std::span<const std::byte> bytes, const std::string& name) {
+  const std::string extension = lower_extension(name);
+  const std::string_view text = detail::as_text(bytes);
+  if (text.starts_with("ply\n") || text.starts_with("ply\r") || text.starts_with("ply ")) {
+    return detail::read_ply;
+  }
+  if (extension == ".obj") {
+    return detail::read_obj;
+  }
+  if (extension == ".stl") {
+    return detail::read_stl;
+  }
+  if (extension == ".off" || detail::is_off_keyword(detail::TextCursor(text, name, '#').token())) {
+    return detail::read_off;
+  }
+  if (text.starts_with("solid") || (extension != ".ply" && detail::has_binary_stl_size(bytes))) {
+    return detail::read_stl;
+  }
+  detail::fail_reading(name, "",
+                       extension == ".ply" ? "does not begin with 'ply'" : "is in no known mesh format",
+                       "use a file in OBJ, PLY, OFF or STL format, named so");
+}
+
+void check_soup(const PolygonSoup& soup, const std::string& name) {
+  if (soup.polygon_count() == 0) {
+    detail::fail_reading(name, "", "there are no faces in it",
+                         "export the mesh with its faces, not as points");
+  }
+  for (std::size_t f = 0; f < soup.polygon_count(); ++f) {
+    for (std::uint32_t i = soup.first_corner[f]; i < soup.first_corner[f + 1]; ++i) {
+      if (soup.corners[i] >= soup.positions.size()) {
+        detail::fail_reading(name, "",
+                             "face " + std::to_string(f) + " uses vertex " + std::to_string(soup.corners[i]) +
+                                 ", but there are only " + std::to_string(soup.positions.size()) +
+                                 " (counted from 0)",
+                             "correct the indices or export it again");
+      }
+    }
+  }
+}
+
+std::vector<std::byte> read_bytes(const fs::path& path) {
+  const std::string name = path.string();
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) {
+    detail::fail_reading(name, "", "no such file", "check the path");
+  }
+  if (status.type() == fs::file_type::none) {
+    detail::fail_reading(name, "", "cannot be opened: " + error.message(), "check the path and permissions");
+  }
+  if (status.type() != fs::file_type::regular) {
+    const bool folder = status.type() == fs::file_type::directory;
+    detail::fail_reading(name, "", folder ? "is a folder" : "is not a regular file", "name a mesh file");
+  }
+  std::ifstream in(path, std::ios::binary);
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (!in || error) {
+    detail::fail_reading(name, "", "cannot be opened", "check its permissions");
+  }
+  if (size == 0) {
+    detail::fail_reading(name, "", "the file is empty", "export it again");
+  }
+  std::vector<std::byte> bytes(size);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(in.gcount()) != size) {
+    detail::fail_reading(name, "byte " + std::to_string(in.gcount()), "reading stopped", "check the disk");
+  }
+  return bytes;
+}
+
+}  // namespace
+
+PolygonSoup read_polygon_soup(const fs::path& path) {
+  return parse_polygon_soup(read_bytes(path), path.string());
+}
+
+PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name) {
+  if (bytes.empty()) {
+    detail::fail_reading(name, "", "the file is empty", "export it again");
+  }
+  PolygonSoup soup = choose_reader(bytes, name)(bytes, name);
+  check_soup(soup, name);
+  return soup;
+}
+
+Triangulation triangulate(const PolygonSoup& soup) {
+  Triangulation result;
+  result.triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.polygon_count()));
+  for (std::uint32_t f = 0; f < soup.polygon_count(); ++f) {
+    const std::uint32_t* corner = soup.corners.data() + soup.first_corner[f];
+    const std::uint32_t size = soup.first_corner[f + 1] - soup.first_corner[f];
+    result.fanned_polygons += size > 3;
+    result.skipped_polygons += size < 3;
+    for (std::uint32_t k = 2; k < size; ++k) {
+      result.triangles.push_back({corner[0], corner[k - 1], corner[k]});
+      result.source_polygon.push_back(f);
+    }
+  }
+  return result;
+}
+
+TriangleMesh read_mesh(const fs::path& path, const BuildOptions& options) {
+  const PolygonSoup soup = read_polygon_soup(path);
+  TriangleMesh mesh = TriangleMesh::build(soup.positions, triangulate(soup).triangles, options);
+  if (mesh.empty()) {
+    detail::fail_reading(path.string(), "", "every face in it has fewer than three distinct corners",
+                         "export the mesh at another scale or precision");
+  }
+  return mesh;
+}
+
+}  // namespace penumbra

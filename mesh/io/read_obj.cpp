@@ -1,0 +1,54 @@
+// Wavefront OBJ: v and f (v, v/vt, v//vn, v/vt/vn, negative indices count back from the last vertex so far);
+// everything else is skipped. A backslash at the end of a line continues it.
+#include "mesh/io/cursor.h"
+#include "mesh/io/readers.h"
+
+namespace penumbra::detail {
+namespace {
+
+void read_vertex(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
+  Vec3 p(0.0);
+  for (int k = 0; k < 3; ++k) {
+    const std::string_view token = cursor.token_of_line();
+    if (token.empty() || !parse_number(token, p[k])) {
+      cursor.fail(
+          "vertex " + std::to_string(soup.vertex_count()) + " needs three numbers, found " + quote(token),
+          "correct that line");
+    }
+  }
+  soup.add_vertex(p);  // w and colours may follow
+}
+
+void read_face(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
+  for (std::string_view token = cursor.token_of_line(); !token.empty(); token = cursor.token_of_line()) {
+    std::int64_t number = 0;
+    if (!parse_number(token.substr(0, token.find('/')), number) || number == 0) {
+      cursor.fail("face " + std::to_string(soup.polygon_count()) + " has the corner " + quote(token) +
+                      ", whose vertex is not a number other than 0",
+                  "write v, v/vt, v//vn or v/vt/vn, counted from 1");
+    }
+    soup.add_corner(number > 0 ? number - 1 : static_cast<std::int64_t>(soup.vertex_count()) + number);
+  }
+  soup.end_polygon();
+}
+
+}  // namespace
+
+PolygonSoup read_obj(std::span<const std::byte> bytes, const std::string& name) {
+  TextCursor cursor(as_text(bytes), name, '#', true);
+  SoupBuilder<TextCursor> soup(cursor);
+  while (!cursor.at_end()) {
+    const std::string_view keyword = cursor.token_of_line();
+    if (keyword == "v") {
+      read_vertex(cursor, soup);
+    } else if (keyword == "f") {
+      read_face(cursor, soup);
+    }
+    while (!cursor.token_of_line().empty()) {  // not skip_line: what is skipped may be continued
+    }
+    cursor.skip_line();
+  }
+  return std::move(soup).take();
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,260 @@
+#include "render/d_buffer/center_rays.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "render/light/disk_area.h"
+#include "render/light/disk_samples.h"
+#include "render/rays/ray_scene_impl.h"
+#include "render/support/vector_clones.h"
+
+namespace penumbra {
+
+/// Sixteen receivers, local frame.
+struct detail::ReceiverLanes {
+  const float *x, *y, *z, *nx, *ny, *nz;
+};
+
+namespace {
+
+using detail::ReceiverLanes;
+
+constexpr std::size_t kLanes = 16;
+constexpr int kBlock = 4;  // pixels a side that share a packet
+
+struct LocalDisk {
+  float x, y, z;     ///< center
+  float mx, my, mz;  ///< unit normal
+  float radius;
+};
+
+LocalDisk local_disk(const DiskLight& light, const RayFrame& frame) {
+  const glm::vec3 center(frame.to_local(light.center)), m(light_frame(light).w);
+  return {center.x, center.y, center.z, m.x, m.y, m.z, static_cast<float>(light.radius * frame.scale)};
+}
+
+/// The disk as a receiver's horizon lies across it.
+struct AboveHorizon {
+  float x, y, z;     ///< from the receiver to the center
+  float ux, uy, uz;  ///< up the disk: the receiver's normal without its part along the light's
+  float size;        ///< of that
+  float height;      ///< of the center above the horizon
+  float before;      ///< the light's plane, so far
+  bool behind;       ///< the light, or in its plane: the surface, not the ray's origin
+};
+
+PENUMBRA_INLINE AboveHorizon above_horizon_of(const ReceiverLanes& from, std::size_t k,
+                                              const LocalDisk& disk) {
+  AboveHorizon out;
+  out.x = disk.x - from.x[k], out.y = disk.y - from.y[k], out.z = disk.z - from.z[k];
+  const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
+  const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
+  out.ux = nx - along * disk.mx, out.uy = ny - along * disk.my, out.uz = nz - along * disk.mz;
+  out.size = std::sqrt(out.ux * out.ux + out.uy * out.uy + out.uz * out.uz);
+  out.height = nx * out.x + ny * out.y + nz * out.z;
+  out.before = -(out.x * disk.mx + out.y * disk.my + out.z * disk.mz);
+  out.behind = out.before - static_cast<float>(kRayOffset) * along <= static_cast<float>(kLightOffset);
+  return out;
+}
+
+/// Directions to the points aimed at; 0 in `wanted` where no ray is needed.
+PENUMBRA_VECTOR_CLONES
+void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int* wanted) {
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const AboveHorizon seen = above_horizon_of(from, k, disk);
+    const bool lifted = seen.height <= 0.0f && seen.height + disk.radius * seen.size > 0.0f;
+    // From the center up to the middle between horizon (-height / size) and top (radius).
+    const float lift = lifted ? 0.5f * (disk.radius - seen.height / seen.size) / seen.size : 0.0f;
+    packet.dir_x[k] = seen.x + lift * seen.ux;
+    packet.dir_y[k] = seen.y + lift * seen.uy;
+    packet.dir_z[k] = seen.z + lift * seen.uz;
+    packet.tfar[k] = ray_end(seen.before);
+    wanted[k] = (seen.height > 0.0f || lifted) && !seen.behind ? -1 : 0;
+  }
+}
+
+/// The chord that a receiver's horizon cuts off the disk, as its signed distance from the center in radii: 1
+/// and more where all of the disk is above, -1 behind the light. Heights are of the surface, not of the ray's
+/// origin.
+PENUMBRA_INLINE float horizon_chord(const ReceiverLanes& from, std::size_t k, const LocalDisk& disk) {
+  const AboveHorizon seen = above_horizon_of(from, k, disk);
+  const float reach = disk.radius * seen.size, height = seen.height + static_cast<float>(kRayOffset);
+  const float inside = height / std::max(reach, 1e-30f);
+  return seen.behind ? -1.0f : height >= reach ? 1.0f : inside;
+}
+
+PENUMBRA_VECTOR_CLONES
+void horizon_chords(const ReceiverLanes& from, const LocalDisk& disk, float* delta) {
+  for (std::size_t k = 0; k < kLanes; ++k) delta[k] = horizon_chord(from, k, disk);
+}
+
+/// What lies beyond a chord.
+float open_fraction(float delta) {
+  return delta >= 1.0f ? 1.0f : delta > -1.0f ? static_cast<float>(half_plane_area(delta)) : 0.0f;
+}
+
+/// Sixteen rays from receivers.
+struct Packet {
+  alignas(64) RTCRay16 ray{};
+  alignas(64) int wanted[kLanes];
+  RTCIntersectContext context;
+
+  Packet() {
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+
+  /// Whether something lies on the way of lane k, after `trace`.
+  bool is_hidden(std::size_t k) const {
+    return wanted[k] && ray.tfar[k] < 0.0f;  // Embree sets it to -infinity at a hit
+  }
+  void trace(const ReceiverLanes& from, RTCScene casters) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      ray.org_x[k] = from.x[k], ray.org_y[k] = from.y[k], ray.org_z[k] = from.z[k];
+      ray.tnear[k] = 0.0f, ray.mask[k] = ~0u;
+    }
+    rtcOccluded16(wanted, casters, &context, &ray);
+  }
+};
+
+}  // namespace
+
+CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
+    : rays_(rays),
+      pixels_(surface.size()),
+      width_(static_cast<std::uint32_t>(surface.width)),
+      place_(surface.size(), 0) {
+  const auto count = static_cast<std::size_t>(
+      std::count_if(surface.object.begin(), surface.object.end(), [](int object) { return object >= 0; }));
+  const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
+  for (auto* list : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) list->assign(padded, 0.0f);
+  pixel_.reserve(count);
+  const auto add = [&](std::uint32_t i) {
+    if (!surface.hit(i)) return;
+    const Vec3& n = surface.normal[i];
+    const glm::vec3 p(rays.frame().to_local(surface.position[i]) + kRayOffset * n);
+    const std::size_t k = pixel_.size();
+    place_[i] = static_cast<std::uint32_t>(k);
+    x_[k] = p.x, y_[k] = p.y, z_[k] = p.z;
+    nx_[k] = static_cast<float>(n.x), ny_[k] = static_cast<float>(n.y), nz_[k] = static_cast<float>(n.z);
+    pixel_.push_back(i);
+  };
+  for (int top = 0; top < surface.height; top += kBlock)
+    for (int left = 0; left < surface.width; left += kBlock)
+      for (int y = top; y < std::min(top + kBlock, surface.height); ++y)
+        for (int x = left; x < std::min(left + kBlock, surface.width); ++x)
+          add(static_cast<std::uint32_t>(y * surface.width + x));
+}
+
+detail::ReceiverLanes CenterRays::lanes(std::size_t first) const {
+  return {&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
+}
+
+void CenterRays::above_horizon(const DiskLight& light, std::vector<float>& out) const {
+  out.assign(pixels_, 1.0f);
+  const LocalDisk disk = local_disk(light, rays_.frame());
+  const auto look = [&](const tbb::blocked_range<std::size_t>& packets) {
+    float delta[kLanes];
+    for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
+      const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
+      horizon_chords(lanes(first), disk, delta);
+      for (std::size_t k = 0; k < count; ++k) out[pixel_[first + k]] = open_fraction(delta[k]);
+    }
+  };
+  rays_.impl().arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 256), look); });
+}
+
+void CenterRays::center_seen(const DiskLight& light, std::vector<float>& out) const {
+  out.assign(pixels_, 1.0f);
+  const LocalDisk disk = local_disk(light, rays_.frame());
+  const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
+    Packet packet;
+    for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
+      const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
+      const ReceiverLanes from = lanes(first);
+      aim(from, disk, packet.ray, packet.wanted);
+      for (std::size_t k = count; k < kLanes; ++k) packet.wanted[k] = 0;
+      packet.trace(from, rays_.impl().casters);
+      for (std::size_t k = 0; k < count; ++k)
+        if (packet.is_hidden(k)) out[pixel_[first + k]] = 0.0f;
+    }
+  };
+  rays_.impl().arena.execute(
+      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 64), trace); });
+}
+
+namespace {
+
+using DiskPoints = std::array<detail::DiskPoint, kLanes>;
+
+/// A sunflower's seeds (Vogel 1979): rings of equal areas, the golden angle between one and the next.
+DiskPoints sunflower(double turn) {
+  constexpr double kGolden = 2.399963229728653;
+  DiskPoints out;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const double radius = std::sqrt((static_cast<double>(k) + 0.5) / kLanes);
+    const double angle = kGolden * static_cast<double>(k) + turn;
+    out[k] = {static_cast<float>(radius * std::cos(angle)), static_cast<float>(radius * std::sin(angle))};
+  }
+  return out;
+}
+
+/// One pattern for each of three by three pixels, each turned against the others.
+std::array<DiskPoints, 9> interleaved_points() {
+  std::array<DiskPoints, 9> out;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = sunflower(2.0 * std::numbers::pi * static_cast<double>(i) / 9.0);
+  return out;
+}
+
+}  // namespace
+
+std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
+                                                  std::span<const std::uint32_t> pixels) const {
+  const LightFrame axes = light_frame(light);
+  const double radius = light.radius * rays_.frame().scale;
+  const glm::vec3 center(rays_.frame().to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
+  const LocalDisk disk = local_disk(light, rays_.frame());
+  const auto patterns = interleaved_points();
+  const auto look = [&](std::uint32_t pixel) {
+    const std::uint32_t at = place_[pixel];
+    const DiskPoints& points = patterns[pixel / width_ % 3 * 3 + pixel % width_ % 3];
+    const glm::vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
+    const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
+    if (!(open > 0.0f)) return 0.0f;
+    const float end = ray_end(above_horizon_of(lanes(at), 0, disk).before);
+    alignas(64) RTCRay16 ray{};
+    alignas(64) int above[kLanes];
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const glm::vec3 way = center + points[k].x * u + points[k].y * v - from;
+      ray.org_x[k] = from.x, ray.org_y[k] = from.y, ray.org_z[k] = from.z;
+      ray.dir_x[k] = way.x, ray.dir_y[k] = way.y, ray.dir_z[k] = way.z;
+      ray.tfar[k] = end, ray.mask[k] = ~0u;
+      above[k] = glm::dot(way, n) > 0.0f ? -1 : 0;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags =
+        RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;  // they graze casters: a tenth faster than coherent
+    rtcOccluded16(above, rays_.impl().casters, &context, &ray);
+    int asked = 0, seen = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) asked += above[k] != 0, seen += above[k] && ray.tfar[k] >= 0.0f;
+    return asked > 0 ? open * static_cast<float>(seen) / static_cast<float>(asked) : open;
+  };
+  std::vector<float> out(pixels.size());
+  rays_.impl().arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 8), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) out[i] = look(pixels[i]);
+    });
+  });
+  return out;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,119 @@
+#include "render/d_buffer/entries/facet_reach.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render/rays/ray_scene_impl.h"
+
+namespace penumbra::detail {
+namespace {
+
+/// Rays pass an edge at this distance (local units), on the lit side: above float's noise, below any feature
+/// that counts.
+constexpr double kClearance = 2.0 * kRayOffset;
+/// A hit this much nearer than the edge hides it; nearer ones are the edge's own faces.
+constexpr float kHidden = 1.0f - 1e-3f;
+
+class Prober {
+ public:
+  Prober(const DiskLight& light, const RayScene& rays)
+      : rays_(rays), axes_(light_frame(light)), center_(light.center), radius_(light.radius) {}
+
+  /// The way from the rim past a point.
+  struct Probe {
+    Vec3 target;   ///< world
+    double angle;  ///< of the contact on the rim
+  };
+
+  /// Reach of the ray from the rim past the target.
+  float reach(const Probe& probe, SupportKind kind) const {
+    RTCRayHit query{};
+    if (!aim(probe, kind, query.ray)) return std::numeric_limits<float>::infinity();
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(rays_.impl().casters, &context, &query);
+    return query.ray.tfar < kHidden ? 0.0f : query.ray.tfar;
+  }
+
+  /// Leaves of an edge that crosses the light's plane its part in front.
+  void cut_to_front(Vec3& a, Vec3& b) const {
+    const double da = glm::dot(axes_.w, a - center_), db = glm::dot(axes_.w, b - center_);
+    if (da < 0.0 && db > 0.0) a = b + (a - b) * (db / (db - da));
+    if (db < 0.0 && da > 0.0) b = a + (b - a) * (da / (da - db));
+  }
+
+ private:
+  /// False where the contact lies on the target's own line along the rim.
+  bool aim(const Probe& probe, SupportKind kind, RTCRay& ray) const {
+    const RayFrame& frame = rays_.frame();
+    const Vec3 out = axes_.u * std::cos(probe.angle) + axes_.v * std::sin(probe.angle);
+    const Vec3 contact = center_ + radius_ * out;
+    // The plane that touches the rim at the contact and passes the target; its normal points away from the
+    // disk.
+    Vec3 beyond = glm::cross(glm::cross(axes_.w, out), probe.target - contact);
+    const double size = glm::length(beyond);
+    if (!(size > 0.0)) return false;
+    beyond = beyond / size;
+    if (glm::dot(beyond, out) < 0.0) beyond = -beyond;
+    const Vec3 lit = kind == SupportKind::kPenumbra ? -beyond : beyond;
+    const Vec3 from = frame.to_local(contact);
+    const Vec3 way = frame.to_local(probe.target) + kClearance * lit - from;
+    ray.org_x = static_cast<float>(from.x), ray.dir_x = static_cast<float>(way.x);
+    ray.org_y = static_cast<float>(from.y), ray.dir_y = static_cast<float>(way.y);
+    ray.org_z = static_cast<float>(from.z), ray.dir_z = static_cast<float>(way.z);
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0u;
+    return true;
+  }
+
+  const RayScene& rays_;
+  const LightFrame axes_;
+  const Vec3 center_;
+  const double radius_;
+};
+
+/// Over up to three places along an edge or round a sector, 0 to 1; infinity is not surpassed.
+template <class Reach>
+float farthest(int count, const Reach& reach_at) {
+  constexpr double kPlaces[] = {0.5, 0.1, 0.9};
+  float most = 0.0f;
+  for (int i = 0; i < count; ++i)
+    if (std::isfinite(most)) most = std::max(most, reach_at(kPlaces[i]));
+  return most;
+}
+
+}  // namespace
+
+void find_facet_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                      std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
+  const Prober prober(light, rays);
+  out.facets.assign(supports.facets.size(), 0.0f);
+  const auto probe = [&](std::size_t i) {
+    const SupportFacet& f = supports.facets[i];
+    const Edge& e = mesh.edges()[index(f.edge)];
+    Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
+    prober.cut_to_front(a, b);
+    out.facets[i] = farthest(probes[i], [&](double t) {
+      return prober.reach({a + t * (b - a), f.rim_angle}, f.kind);
+    });
+  };
+  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
+}
+
+void find_cone_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+                     std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
+  const Prober prober(light, rays);
+  out.cones.assign(supports.cones.size(), 0.0f);
+  const auto probe = [&](std::size_t i) {
+    const ConeSector& c = supports.cones[i];
+    out.cones[i] = farthest(probes[i], [&](double t) {
+      return prober.reach({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
+    });
+  };
+  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,260 @@
+#include "render/d_buffer/image_side.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <glm/geometric.hpp>
+
+#include "render/d_buffer/passes.h"
+
+namespace penumbra::detail {
+namespace {
+
+using gl::Object;
+using gl::Program;
+
+std::unique_ptr<Object> image_texture(const gl::Functions& gl, GLenum format, int width, int height) {
+  auto texture = std::make_unique<Object>(gl, Object::Kind::kTexture);
+  gl.BindTexture(GL_TEXTURE_2D, *texture);
+  gl.TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  return texture;
+}
+
+/// Whether rays are asked where entries contradict each other: the paper's own method knows no rays.
+bool checks(const DBufferOptions& o) {
+  return o.check == EntryCheck::kRays && o.contents == DBufferContents::kEdge &&
+         o.curve == VisibilityCurve::kExact && o.center == CenterTest::kRay;
+}
+
+/// Whether the visibility without entries is in the image before the passes begin, at every pixel that no
+/// entry touches.
+bool is_known(const DBufferOptions& o, int targets) {
+  return o.center == CenterTest::kRay && targets <= 1;
+}
+
+/// Pixels whose entries contradict what is known of the light's center, ascending; the shader adds 2 to their
+/// visibility, which is taken off.
+std::vector<std::uint32_t> take_doubts(std::vector<float>& visibility) {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < visibility.size(); ++i) {
+    if (visibility[i] < 1.5f) continue;
+    visibility[i] -= 2.0f;
+    out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace
+
+/// One set for each way of reading the D-buffer.
+struct DBufferShading::Programs {
+  Programs(const gl::Functions& gl, const DBufferOptions& options, int targets)
+      : contents(options.contents),
+        curve(options.curve),
+        entries(options.entries),
+        target_count(targets),
+        known(is_known(options, targets)),
+        center(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_center.frag.glsl"}}, {{"TARGETS", targets}}),
+        select(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_select.frag.glsl"}},
+               {{"TARGETS", targets}, {"KNOWN", known}}),
+        visibility(gl, {kTiles, {GL_FRAGMENT_SHADER, "d_buffer_visibility.frag.glsl"}},
+                   {{"TARGETS", targets},
+                    {"CONTENTS", static_cast<int>(contents)},
+                    {"CURVE", static_cast<int>(curve)},
+                    {"ENTRIES", entries}}) {}
+  bool fits(const DBufferOptions& options, int targets) const {
+    return contents == options.contents && curve == options.curve && entries == options.entries &&
+           known == is_known(options, targets) && target_count == targets;
+  }
+
+  static constexpr Program::Stage kTiles{GL_VERTEX_SHADER, "image_tiles.vert.glsl"};
+  DBufferContents contents;
+  VisibilityCurve curve;
+  int entries, target_count;
+  bool known;
+  Program center, select, visibility;
+};
+
+DBufferShading::DBufferShading(const gl::Functions& gl)
+    : gl_(gl), tile_array_(gl, Object::Kind::kVertexArray), tile_buffer_(gl, Object::Kind::kBuffer) {}
+
+DBufferShading::~DBufferShading() = default;
+
+void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::vec4> positions,
+                                 const RayScene& rays) {
+  width_ = surface.width;
+  height_ = surface.height;
+  positions_ = std::move(positions);
+  normals_.assign(surface.size(), glm::vec4(0.0f));
+  for (std::size_t i = 0; i < surface.size(); ++i)
+    if (surface.hit(i)) normals_[i] = glm::vec4(glm::vec3(surface.normal[i]), 0.0f);
+  const auto upload = [&](const std::vector<glm::vec4>& texels) {
+    auto texture = image_texture(gl_, GL_RGBA32F, width_, height_);
+    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, texels.data());
+    return texture;
+  };
+  surface_position_ = upload(positions_);
+  surface_normal_ = upload(normals_);
+  visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
+  mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
+  center_seen_ = image_texture(gl_, GL_R32F, width_, height_);
+  center_rays_ = std::make_unique<CenterRays>(surface, rays);
+  lonely_ = lonely_pixels({width_, height_, positions_, normals_, {}});
+  seen_.clear();
+}
+
+void DBufferShading::trace_center(const DiskLight& light) {
+  center_rays_->center_seen(light, seen_);
+  const auto upload = [&](const Object& texture, const std::vector<float>& texels) {
+    gl_.BindTexture(GL_TEXTURE_2D, texture);
+    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RED, GL_FLOAT, texels.data());
+  };
+  upload(*center_seen_, seen_);
+  center_rays_->above_horizon(light, open_);
+  without_entries_.resize(seen_.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen_.size(), 8192), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      without_entries_[i] = seen_[i] < 1.0f ? 0.0f : open_[i];
+  });
+  upload(*visibility_texture_, without_entries_);
+}
+
+ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
+  return {width_, height_, positions_, view.axes, view.offset};
+}
+
+ReceiverGrid DBufferShading::receiver_grid(const DBufferView& view, int size) const {
+  return {receivers(view), normals_, seen_, view.targets[0], size, view.radius};
+}
+
+DBufferShading::Programs& DBufferShading::programs(const DBufferView& view, const DBufferOptions& options) {
+  const int targets = static_cast<int>(view.targets.size());
+  for (const auto& known : programs_)
+    if (known->fits(options, targets)) return *known;
+  programs_.push_back(std::make_unique<Programs>(gl_, options, targets));
+  return *programs_.back();
+}
+
+void DBufferShading::bind_textures(const Program& program, const DBufferLayers& layers,
+                                   GLuint records) const {
+  struct Binding {
+    const char* name;
+    GLenum kind;
+    GLuint texture;
+  };
+  constexpr GLenum kArray = GL_TEXTURE_2D_ARRAY;
+  const Binding bindings[] = {
+      {"surface_position", GL_TEXTURE_2D, *surface_position_},
+      {"surface_normal", GL_TEXTURE_2D, *surface_normal_},
+      {"center_seen", GL_TEXTURE_2D, *center_seen_},
+      {"occluder_face", kArray, layers.occluder.id.texture},
+      {"occluder_depth", kArray, layers.occluder.depth.texture},
+      {"last_depth", kArray, layers.last.texture},
+      {"first_entry", kArray, layers.first_entries.id.texture},
+      {"first_depth", kArray, layers.first_entries.depth.texture},
+      {"second_entry", kArray, layers.second_entries.id.texture},
+      {"second_depth", kArray, layers.second_entries.depth.texture},
+      {"records", GL_TEXTURE_BUFFER, records},
+  };
+  int unit = 0;
+  for (const Binding& b : bindings) {
+    gl_.ActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+    gl_.BindTexture(b.kind, b.texture);
+    gl_.Uniform1i(program.uniform(b.name), unit++);
+  }
+  gl_.ActiveTexture(GL_TEXTURE0);
+}
+
+void DBufferShading::shade_pixels(const Program& program, const DBufferView& view,
+                                  const DBufferLayers& layers, GLuint records) const {
+  program.use();
+  const auto at = [&](const char* name) { return program.uniform(name); };
+  gl_.UniformMatrix3fv(at("light_axes"), 1, GL_FALSE, &view.axes[0][0]);
+  gl_.Uniform3f(at("light_offset"), view.offset.x, view.offset.y, view.offset.z);
+  gl_.Uniform1f(at("radius"), static_cast<float>(view.radius));
+  gl_.Uniform1f(at("near_depth"), static_cast<float>(kNearDepth));
+  std::vector<glm::mat3> axes;
+  std::vector<glm::vec4> windows;
+  for (const Target& t : view.targets) {
+    axes.emplace_back(t.axes);
+    windows.emplace_back(t.window[0], t.window[1], t.window[2], t.window[3]);
+  }
+  const auto count = static_cast<GLsizei>(axes.size());
+  if (count > 0) {
+    gl_.UniformMatrix3fv(at("target_axes"), count, GL_FALSE, &axes[0][0][0]);
+    gl_.Uniform4fv(at("target_window"), count, &windows[0][0]);
+  }
+  bind_textures(program, layers, records);
+  gl_.DrawArrays(GL_TRIANGLES, 0, tile_vertices_);
+}
+
+std::vector<glm::vec2> DBufferShading::tiles(const DBufferView& view, const ReceiverGrid& grid,
+                                             const EntryGeometry& geometry,
+                                             const DBufferOptions& options) const {
+  if (!is_known(options, static_cast<int>(view.targets.size())) || grid.is_everywhere()) return whole_image();
+  if (view.targets.empty()) return {};
+  return tiles_with_entries(receivers(view), grid, geometry, view.targets[0]);
+}
+
+/// The passes draw them at depth 0.5.
+void DBufferShading::upload_tiles(const std::vector<glm::vec2>& tiles) {
+  tile_vertices_ = static_cast<GLsizei>(tiles.size());
+  gl_.BindVertexArray(tile_array_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(glm::vec2)), tiles.data(),
+                 GL_STREAM_DRAW);
+  gl_.VertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, sizeof(glm::vec2), nullptr);
+  gl_.EnableVertexAttribArray(0);
+}
+
+void DBufferShading::test_center_by_depth(const Programs& programs, const DBufferView& view,
+                                          const DBufferLayers& layers, GLuint records) {
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *center_seen_, 0);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
+  gl::require_complete_framebuffer(gl_, "testing the light's center");
+  gl_.DepthFunc(GL_ALWAYS);
+  shade_pixels(programs.center, view, layers, records);
+  gl_.Finish();
+}
+
+/// Asks rays where entries contradict each other.
+void DBufferShading::check(const DiskLight& light, std::span<const std::uint32_t> doubtful,
+                           std::vector<float>& visibility) {
+  const auto ask = [&](std::span<const std::uint32_t> pixels) {
+    return center_rays_->sampled_visibility(light, pixels);
+  };
+  sampled_ = steps_.ask({width_, height_, positions_, normals_, open_}, lonely_, doubtful, ask, visibility);
+}
+
+/// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
+/// second.
+std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferView& view,
+                                         const std::vector<glm::vec2>& tiles, const DBufferLayers& layers,
+                                         GLuint records, const DBufferOptions& options) {
+  Programs& with = programs(view, options);
+  upload_tiles(tiles);
+  gl_.Viewport(0, 0, width_, height_);
+  if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, records);
+  const GLenum color = GL_COLOR_ATTACHMENT0;
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, color, GL_TEXTURE_2D, *visibility_texture_, 0);
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *mark_texture_, 0);
+  gl_.DrawBuffers(with.known ? 0 : 1, &color);
+  gl::require_complete_framebuffer(gl_, "shading from the D-buffer");
+  gl_.DepthFunc(GL_ALWAYS);
+  shade_pixels(with.select, view, layers, records);
+  gl_.DrawBuffers(1, &color);
+  gl_.DepthFunc(GL_LESS);  // tiles lie at depth 0.5
+  shade_pixels(with.visibility, view, layers, records);
+  gl_.Finish();
+  std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  gl_.ReadBuffer(color);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, out.data());
+  const std::vector<std::uint32_t> doubtful = take_doubts(out);
+  sampled_ = 0;
+  if (checks(options)) check(light, doubtful, out);
+  return out;
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,225 @@
+#include "render/d_buffer/passes.h"
+
+#include <cstddef>
+
+namespace penumbra::detail {
+namespace {
+
+using gl::Object;
+constexpr GLuint kNoId[4] = {0, 0, 0, 0};
+
+template <class T>
+void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std::vector<T>& data,
+          GLenum usage) {
+  gl.BindBuffer(kind, buffer);
+  gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
+}
+
+/// Whether penumbra entries have to stand a comparison with the first surface. Where rays tell which
+/// receivers see the light's center those lie on or before that surface, so that the nearest entry before
+/// them is before it too.
+bool needs_first_surface(const DBufferOptions& options) {
+  return options.center == CenterTest::kDepth || options.conflict == Conflict::kFurthest;
+}
+
+}  // namespace
+
+DBufferPasses::DBufferPasses(const gl::Functions& gl)
+    : gl_(gl),
+      occluder_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_occluder.vert.glsl"},
+                             {GL_FRAGMENT_SHADER, "d_buffer_occluder.frag.glsl"}}),
+      caster_points_(gl, Object::Kind::kBuffer),
+      caster_indices_(gl, Object::Kind::kBuffer),
+      read_indices_(gl, Object::Kind::kBuffer),
+      caster_array_(gl, Object::Kind::kVertexArray),
+      penumbra_vertices_(gl, Object::Kind::kBuffer),
+      umbra_vertices_(gl, Object::Kind::kBuffer),
+      entry_array_(gl, Object::Kind::kVertexArray),
+      record_buffer_(gl, Object::Kind::kBuffer),
+      record_texture_(gl, Object::Kind::kTexture) {}
+
+void DBufferPasses::upload_casters(std::vector<glm::vec3> points, std::vector<std::uint32_t> indices,
+                                   std::vector<CasterRange> casters) {
+  points_ = std::move(points);
+  indices_ = std::move(indices);
+  casters_ = std::move(casters);
+  gl_.BindVertexArray(caster_array_);
+  fill(gl_, GL_ARRAY_BUFFER, caster_points_, points_, GL_STATIC_DRAW);
+  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, caster_indices_, indices_, GL_STATIC_DRAW);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+  gl_.EnableVertexAttribArray(0);
+}
+
+void DBufferPasses::upload_entries(const EntryGeometry& geometry) {
+  fill(gl_, GL_ARRAY_BUFFER, penumbra_vertices_, geometry.penumbra, GL_STREAM_DRAW);
+  fill(gl_, GL_ARRAY_BUFFER, umbra_vertices_, geometry.umbra, GL_STREAM_DRAW);
+  fill(gl_, GL_TEXTURE_BUFFER, record_buffer_, geometry.records, GL_STREAM_DRAW);
+  gl_.BindTexture(GL_TEXTURE_BUFFER, record_texture_);
+  gl_.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, record_buffer_);
+  penumbra_count_ = geometry.penumbra.size();
+  umbra_count_ = geometry.umbra.size();
+}
+
+void DBufferPasses::set_idle(const std::vector<bool>& idle) {
+  for (std::size_t i = 0; i < casters_.size(); ++i) casters_[i].idle = idle[i];
+}
+
+void DBufferPasses::set_target(const gl::Program& program, const Target& target) const {
+  const glm::mat3 axes(target.axes);
+  float window[4];
+  for (std::size_t k = 0; k < 4; ++k) window[k] = static_cast<float>(target.window[k]);
+  gl_.UniformMatrix3fv(program.uniform("target_axes"), 1, GL_FALSE, &axes[0][0]);
+  gl_.Uniform4fv(program.uniform("target_window"), 1, window);
+  gl_.Uniform1f(program.uniform("near_depth"), static_cast<float>(kNearDepth));
+}
+
+void DBufferPasses::attach(const Layer& layer, int index) const {
+  gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, layer.id.texture, 0, index);
+  gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layer.depth.texture, 0, index);
+  const GLenum color = GL_COLOR_ATTACHMENT0;
+  gl_.DrawBuffers(1, &color);
+}
+
+void DBufferPasses::bind(int unit, GLenum kind, GLuint texture) const {
+  gl_.ActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+  gl_.BindTexture(kind, texture);
+}
+
+/// All; only faces towards the light's center, where a caster shows no others.
+void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset) {
+  set_target(occluder_program_, target);
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, caster_indices_);
+  for (const CasterRange& caster : casters_) {
+    if (caster.idle) continue;
+    if (shows_only_fronts(caster, axes, offset)) gl_.Enable(GL_CULL_FACE);
+    gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
+    const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) *
+                                                      sizeof(std::uint32_t));
+    gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(caster.index_count), GL_UNSIGNED_INT, first);
+    gl_.Disable(GL_CULL_FACE);
+  }
+}
+
+void DBufferPasses::draw_read_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset,
+                                      const ReceiverGrid& receivers) {
+  set_target(occluder_program_, target);
+  const std::vector<std::uint32_t> read =
+      triangles_before_hidden(points_, indices_, casters_, axes, offset, receivers);
+  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, read_indices_, read, GL_STREAM_DRAW);
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(read.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+/// First surface of all; then the last of those that face the light's center.
+void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes,
+                                   const glm::vec3& offset, const ReceiverGrid& receivers,
+                                   const DBufferLayers& layers, const DBufferOptions& options) {
+  occluder_program_.use();
+  gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &axes[0][0]);
+  gl_.Uniform3f(occluder_program_.uniform("light_offset"), offset.x, offset.y, offset.z);
+  gl_.BindVertexArray(caster_array_);
+  gl_.Enable(GL_CLIP_DISTANCE0);
+  gl_.CullFace(GL_FRONT);  // targets look along right × up, which turns windings over
+  const float farthest = 0.0f, nearest = 1.0f;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    if (needs_first_surface(options)) {
+      attach(layers.occluder, static_cast<int>(i));
+      gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
+      gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
+      draw_casters(targets[i], axes, offset);
+    }
+    gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.last.texture, 0,
+                                static_cast<int>(i));
+    gl_.ClearBufferfv(GL_DEPTH, 0, &nearest);
+    gl_.DepthFunc(GL_LESS);
+    if (receivers.is_everywhere())
+      draw_casters(targets[i], axes, offset);
+    else
+      draw_read_casters(targets[i], axes, offset, receivers);
+    gl_.DepthFunc(GL_GREATER);
+  }
+  gl_.Disable(GL_CLIP_DISTANCE0);
+}
+
+void DBufferPasses::draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
+                                 const DBufferOptions& options) {
+  gl_.BindVertexArray(entry_array_);
+  const Entries penumbra{penumbra_vertices_, penumbra_count_}, umbra{umbra_vertices_, umbra_count_};
+  draw_kind(targets, layers, EntryKind::kPenumbra, penumbra,
+            needs_first_surface(options) ? Against::kBeforeFirst : Against::kNothing, options);
+  draw_kind(targets, layers, EntryKind::kAbove, umbra, Against::kBeforeLast, options);
+  draw_kind(targets, layers, EntryKind::kBelow, umbra, Against::kBehindLast, options);
+}
+
+void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
+                              const Entries& entries, Against against, const DBufferOptions& options) {
+  constexpr auto kStride = sizeof(EntryVertex);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, entries.vertices);
+  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
+  gl_.VertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride,
+                           reinterpret_cast<const void*>(offsetof(EntryVertex, facet)));
+  gl_.VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, kStride,
+                          reinterpret_cast<const void*>(offsetof(EntryVertex, edge_weight)));
+  for (GLuint attribute : {0u, 1u, 2u}) gl_.EnableVertexAttribArray(attribute);
+  draw_layer(targets, layers, kind, false, entries, against, options);
+  if (layers.entries > 1) draw_layer(targets, layers, kind, true, entries, against, options);
+}
+
+const gl::Program& DBufferPasses::entry_program(int surface, bool peel) {
+  std::unique_ptr<gl::Program>& program = entry_programs_[surface][peel];
+  if (!program)
+    program = std::make_unique<gl::Program>(
+        gl_,
+        std::initializer_list<gl::Program::Stage>{{GL_VERTEX_SHADER, "d_buffer_entry.vert.glsl"},
+                                                  {GL_FRAGMENT_SHADER, "d_buffer_entry.frag.glsl"}},
+        std::initializer_list<gl::Program::Definition>{{"SURFACE", surface}, {"PEEL", peel}});
+  return *program;
+}
+
+void DBufferPasses::bind_filter(const gl::Program& program, const Layers& surface, const Layer& first) const {
+  bind(0, GL_TEXTURE_2D_ARRAY, surface.texture);
+  bind(1, GL_TEXTURE_2D_ARRAY, first.id.texture);
+  bind(2, GL_TEXTURE_2D_ARRAY, first.depth.texture);
+  bind(3, GL_TEXTURE_BUFFER, record_texture_);
+  gl_.Uniform1i(program.uniform("surface_depth"), 0);
+  gl_.Uniform1i(program.uniform("first_entry"), 1);
+  gl_.Uniform1i(program.uniform("first_depth"), 2);
+  gl_.Uniform1i(program.uniform("records"), 3);
+  gl_.ActiveTexture(GL_TEXTURE0);
+}
+
+/// The nearest (or furthest) entries of one kind, or the nearest that come after those.
+void DBufferPasses::draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers,
+                               EntryKind kind, bool second, const Entries& entries, Against against,
+                               const DBufferOptions& options) {
+  const Layer& into = second ? layers.second_entries : layers.first_entries;
+  const bool furthest = options.conflict == Conflict::kFurthest;
+  const Layers& surface = against == Against::kBeforeFirst ? layers.occluder.depth : layers.last;
+  // Nearest in front of a surface needs no comparison: the layer starts with the surface's depth.
+  const bool in_front = against == Against::kBeforeFirst || against == Against::kBeforeLast;
+  const bool starts_with_surface = in_front && !furthest && !second;
+  const int compared = against == Against::kBehindLast ? 2 : in_front && !starts_with_surface ? 1 : 0;
+  const gl::Program& program = entry_program(compared, second);
+  program.use();
+  gl_.Uniform1i(program.uniform("store_edge_weight"), options.contents == DBufferContents::kDistances);
+  bind_filter(program, surface, layers.first_entries);
+  if (starts_with_surface)
+    gl_.CopyImageSubData(surface.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, into.depth.texture,
+                         GL_TEXTURE_2D_ARRAY, 0, 0, 0, layers.layer_of(kind, 0), layers.size, layers.size,
+                         layers.count);
+  gl_.DepthFunc(furthest ? GL_LESS : GL_GREATER);
+  const float start = furthest ? 1.0f : 0.0f;
+  for (int i = 0; i < static_cast<int>(targets.size()); ++i) {
+    const int layer = layers.layer_of(kind, i);
+    attach(into, layer);
+    gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
+    if (!starts_with_surface) gl_.ClearBufferfv(GL_DEPTH, 0, &start);
+    gl_.Uniform1i(program.uniform("target"), i);
+    gl_.Uniform1i(program.uniform("layer"), layer);
+    set_target(program, targets[static_cast<std::size_t>(i)]);
+    gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(entries.count));
+  }
+  gl_.DepthFunc(GL_GREATER);
+}
+
+}  // namespace penumbra::detail

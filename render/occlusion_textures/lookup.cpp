@@ -1,0 +1,194 @@
+#include "render/occlusion_textures/lookup.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "render/support/vector_clones.h"
+
+namespace penumbra::detail {
+namespace {
+
+constexpr int kStrips = 5;
+
+/// Area of the unit disk left of the line at x.
+double area_left_of(double x) {
+  return std::numbers::pi / 2.0 + std::asin(x) + x * std::sqrt(1.0 - x * x);
+}
+
+/// What the slices seen so far leave of the light, receiver by receiver.
+PENUMBRA_VECTOR_CLONES
+void hide(OcclusionCombine rule, const double* __restrict share, const double* above, std::size_t count,
+          double* __restrict left) {
+  switch (rule) {
+    case OcclusionCombine::kProduct:
+      for (std::size_t i = 0; i < count; ++i) left[i] *= 1.0 - share[i];
+      break;
+    case OcclusionCombine::kSum:
+      for (std::size_t i = 0; i < count; ++i) left[i] -= share[i];
+      break;
+    case OcclusionCombine::kMaximum:
+      for (std::size_t i = 0; i < count; ++i) left[i] = std::min(left[i], std::min(above[i], 1.0 - share[i]));
+      break;
+  }
+}
+
+/// Where a slice lies, in numbers that a lookup needs.
+struct Plane {
+  double depth;
+  glm::dvec2 texels_per_unit;  ///< of the light's frame, on this plane
+};
+
+/// A part of the light, and where texel (0, 0) is on its plane.
+struct LightBox {
+  KernelPart part;
+  glm::dvec2 half, origin;
+};
+
+/// The light as receivers see it on a plane: a box of texels for each. Those are at least a texel wide: a
+/// smaller one would see single texels.
+PENUMBRA_VECTOR_CLONES
+void project_light(const SliceReceivers& __restrict from, const Plane& plane, const LightBox& light,
+                   TexelBoxes& __restrict boxes) {
+  const glm::dvec2 unit = plane.texels_per_unit, half = light.half * unit, origin = light.origin;
+  const KernelPart part = light.part;
+  const double depth = plane.depth;
+  for (std::size_t i = 0; i < from.count; ++i) {
+    const double near = depth / from.z[i];
+    const double x = origin.x + from.x[i] * near * unit.x, y = origin.y + from.y[i] * near * unit.y;
+    const double hx = std::max(half.x * (1.0 - near), 0.5), hy = std::max(half.y * (1.0 - near), 0.5);
+    boxes.x0[i] = x + part.x0 * hx;
+    boxes.x1[i] = x + part.x1 * hx;
+    boxes.y0[i] = y + part.y0 * hy;
+    boxes.y1[i] = y + part.y1 * hy;
+  }
+}
+
+/// Adds what boxes see covered, as parts of the light.
+PENUMBRA_VECTOR_CLONES
+void add_shares(const TexelBoxes& boxes, const double* __restrict covered, double part,
+                double* __restrict share) {
+  for (std::size_t i = 0; i < boxes.count; ++i)
+    share[i] += part * covered[i] / ((boxes.x1[i] - boxes.x0[i]) * (boxes.y1[i] - boxes.y0[i]));
+}
+
+/// A slice fades in behind its plane, from nothing to all of it over its thickness.
+PENUMBRA_VECTOR_CLONES
+void fade_in(const SliceReceivers& receivers, const Plane& plane, double per_thickness,
+             double* __restrict share) {
+  for (std::size_t i = 0; i < receivers.count; ++i) {
+    const double fade = std::clamp((receivers.z[i] - plane.depth) * per_thickness, 0.0, 1.0);
+    share[i] = fade * std::clamp(share[i], 0.0, 1.0);
+  }
+}
+
+/// On the light's plane.
+glm::dvec2 texels_per_unit(const SliceFrustum& frustum, const OcclusionOptions& options) {
+  return static_cast<double>(options.texture_size) / (frustum.high - frustum.low);
+}
+
+template <class Filter>
+class FilteredSlices : public OcclusionLookup {
+ public:
+  FilteredSlices(const std::vector<SliceTexels>& slices, const SliceFrustum& frustum, const SliceSpace& space,
+                 const OcclusionOptions& options)
+      : filters_(slices.size()),
+        parts_(kernel_parts(space.light, options.kernel)),
+        half_(space.half),
+        origin_(-frustum.low * texels_per_unit(frustum, options)),
+        per_thickness_(1.0 / frustum.thickness),
+        rule_(options.combine) {
+    for (int i = 0; i < frustum.count; ++i) {
+      const double depth = frustum.plane(i);
+      planes_.push_back({depth, texels_per_unit(frustum, options) / (1.0 + frustum.narrowing * depth)});
+    }
+    tbb::parallel_for(std::size_t{0}, slices.size(), [&](std::size_t i) {
+      if (!slices[i].empty()) filters_[i] = std::make_unique<Filter>(slices[i], options.texture_size);
+    });
+  }
+
+  void look_up(SliceReceivers& receivers) const override {
+    Work work;
+    auto& left = receivers.visibility;
+    std::copy_n(receivers.above.begin(), receivers.count, left.begin());
+    const double* farthest = std::max_element(receivers.z.data(), receivers.z.data() + receivers.count);
+    for (std::size_t i = 0; i < planes_.size() && receivers.count && planes_[i].depth < *farthest; ++i) {
+      if (!filters_[i]) continue;
+      find_shares(receivers, i, work);
+      hide(rule_, work.share.data(), receivers.above.data(), receivers.count, left.data());
+    }
+    for (std::size_t i = 0; i < receivers.count; ++i) left[i] = std::clamp(left[i], 0.0, receivers.above[i]);
+  }
+
+  std::size_t bytes() const override {
+    std::size_t sum = 0;
+    for (const auto& filter : filters_) sum += filter ? filter->bytes() : 0;
+    return sum;
+  }
+
+ private:
+  struct Work {
+    TexelBoxes boxes;
+    alignas(64) std::array<double, SliceReceivers::kMost> covered, share;
+  };
+
+  /// The share of the light that one slice hides, receiver by receiver.
+  void find_shares(const SliceReceivers& receivers, std::size_t slice, Work& work) const {
+    work.boxes.count = receivers.count;
+    std::fill_n(work.share.begin(), receivers.count, 0.0);
+    for (const KernelPart& part : parts_) {
+      project_light(receivers, planes_[slice], {part, half_, origin_}, work.boxes);
+      filters_[slice]->covered(work.boxes, work.covered.data());
+      add_shares(work.boxes, work.covered.data(), part.share, work.share.data());
+    }
+    fade_in(receivers, planes_[slice], per_thickness_, work.share.data());
+  }
+
+  std::vector<std::unique_ptr<Filter>> filters_;  ///< none where the slice is empty
+  std::vector<Plane> planes_;
+  std::vector<KernelPart> parts_;
+  glm::dvec2 half_, origin_;
+  double per_thickness_;
+  OcclusionCombine rule_;
+};
+
+}  // namespace
+
+void SliceReceivers::add(const Vec3& p, double above_horizon) {
+  x[count] = p.x;
+  y[count] = p.y;
+  z[count] = p.z;
+  above[count++] = above_horizon;
+}
+
+std::vector<KernelPart> kernel_parts(const AreaLight& light, OcclusionKernel kernel) {
+  if (!light.disk) return {{-1.0, -1.0, 1.0, 1.0, 1.0}};
+  const double side = 0.5 * std::sqrt(std::numbers::pi);
+  if (kernel == OcclusionKernel::kBox) return {{-side, -side, side, side, 1.0}};
+  std::vector<KernelPart> parts;
+  for (int i = 0; i < kStrips; ++i) {
+    const double x0 = 2.0 * i / kStrips - 1.0, x1 = 2.0 * (i + 1) / kStrips - 1.0;
+    const double area = area_left_of(x1) - area_left_of(x0), half_height = 0.5 * area / (x1 - x0);
+    parts.push_back({x0, -half_height, x1, half_height, area / std::numbers::pi});
+  }
+  return parts;
+}
+
+std::unique_ptr<OcclusionLookup> make_occlusion_lookup(const std::vector<SliceTexels>& slices,
+                                                       const SliceFrustum& frustum, const SliceSpace& space,
+                                                       const OcclusionOptions& options) {
+  switch (options.filter) {
+    case OcclusionFilter::kMipmap:
+      return std::make_unique<FilteredSlices<MipPyramid>>(slices, frustum, space, options);
+    case OcclusionFilter::kNBuffer:
+      return std::make_unique<FilteredSlices<NBuffer>>(slices, frustum, space, options);
+    case OcclusionFilter::kSummedArea:
+      break;
+  }
+  return std::make_unique<FilteredSlices<SummedArea>>(slices, frustum, space, options);
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,51 @@
+// How much of the light the slices leave, receiver by receiver.
+//
+// "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4. Seen from a receiver at depth z the light covers on
+// the plane at depth b the light scaled by 1 - b/z, about the receiver scaled by b/z: one box of the slice's
+// texture, whose mean is what it hides. Slices that end behind the receiver do not count, and the one that
+// ends just before it fades in with the distance to its plane, from 0 to 1 over one slice.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "render/occlusion_textures/frustum.h"
+#include "render/occlusion_textures/masks.h"
+#include "render/occlusion_textures/mip_pyramid.h"
+#include "render/occlusion_textures/n_buffer.h"
+#include "render/occlusion_textures/summed_area.h"
+
+namespace penumbra::detail {
+
+/// The light's shape as boxes, in units of its half extents, with the area fraction of each.
+struct KernelPart {
+  double x0, y0, x1, y1, share;
+};
+/// One box, or for OcclusionKernel::kDisk of a disk light strips across it.
+std::vector<KernelPart> kernel_parts(const AreaLight& light, OcclusionKernel kernel);
+
+/// Receivers that are looked up together, in the space of the frustum.
+struct SliceReceivers {
+  static constexpr std::size_t kMost = TexelBoxes::kMost;
+  std::size_t count = 0;
+  alignas(64) std::array<double, kMost> x, y, z;
+  alignas(64) std::array<double, kMost> above;       ///< fraction of the light above the horizon
+  alignas(64) std::array<double, kMost> visibility;  ///< the answer
+  void add(const Vec3& p, double above_horizon);
+};
+
+/// Visibility at points, as a fraction of the light. One class a filter.
+class OcclusionLookup {
+ public:
+  virtual ~OcclusionLookup() = default;
+  /// Precondition: every z > 0. O(slices) each, whatever the light's size.
+  virtual void look_up(SliceReceivers& receivers) const = 0;
+  virtual std::size_t bytes() const = 0;
+};
+/// Prefilters all slices, several at a time.
+std::unique_ptr<OcclusionLookup> make_occlusion_lookup(const std::vector<SliceTexels>& slices,
+                                                       const SliceFrustum& frustum, const SliceSpace& space,
+                                                       const OcclusionOptions& options);
+
+}  // namespace penumbra::detail

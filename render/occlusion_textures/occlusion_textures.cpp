@@ -1,0 +1,264 @@
+#include "render/occlusion_textures/occlusion_textures.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/matrix.hpp>
+#include <string>
+
+#include "penumbra/mesh/error.h"
+#include "render/gl/state_scope.h"
+#include "render/occlusion_textures/lookup.h"
+#include "render/rays/ray_scene.h"
+#include "render/shading/shading.h"
+
+namespace penumbra {
+namespace {
+
+constexpr int kTile = 16;        // pixels a side
+constexpr int kRowsAtOnce = 12;  // of tiles, before somebody is asked whether to go on
+static_assert(kTile * kTile <= detail::SliceReceivers::kMost);
+
+void require_valid(const OcclusionOptions& o) {
+  if (o.slices < 4 || o.slices > 16 || o.slices % 4 != 0)
+    throw UsageError("slices must be 4, 8, 12 or 16, not " + std::to_string(o.slices));
+  if (o.texture_size != 128 && o.texture_size != 256 && o.texture_size != 512 && o.texture_size != 1024)
+    throw UsageError("texture size must be 128, 256, 512 or 1024 texels, not " +
+                     std::to_string(o.texture_size));
+  if (o.cop_offset && !(*o.cop_offset > 0.0))
+    throw UsageError("the center of projection must lie behind the light: an offset greater than 0");
+}
+
+}  // namespace
+
+struct OcclusionTextures::Impl {
+  Impl(gl::Context& context_, const Scene& scene_, int threads);
+  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                        const Progress& progress);
+
+  /// What one frame knows before anything is drawn.
+  struct Plan {
+    std::vector<detail::CasterExtent> extents;  ///< one per caster
+    detail::SliceFrustum frustum;
+    std::vector<detail::CasterDrawing> drawings;  ///< one per caster
+    bool nothing_casts = false;
+  };
+  Plan plan(const detail::SliceSpace& space, const OcclusionOptions& options) const;
+  detail::DepthRange range_to_slice(const detail::DepthRange& of_casters, const detail::SliceSpace& space,
+                                    const OcclusionOptions& options) const;
+  void look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
+               const detail::OcclusionLookup* lookup, const Progress& progress,
+               std::vector<float>& visibility) const;
+
+  gl::Context& context;
+  const Scene& scene;
+  Vec3 origin;  ///< uploaded points: (world - origin) · scale
+  double scale;
+  std::vector<const TriangleMesh*> casters;
+  std::vector<double> thickness;  ///< one per caster
+  std::unique_ptr<detail::OcclusionMasks> masks;
+  mutable tbb::task_arena arena;
+};
+
+OcclusionTextures::Impl::Impl(gl::Context& context_, const Scene& scene_, int threads)
+    : context(context_),
+      scene(scene_),
+      scale(ray_frame(scene_).scale),
+      arena(threads > 0 ? threads : tbb::task_arena::automatic) {
+  const Bounds bounds = scene.caster_bounds();
+  origin = bounds.empty() ? scene.light.center : bounds.center();
+  std::vector<glm::vec3> points;
+  std::vector<std::uint32_t> indices;
+  std::vector<detail::MaskRange> ranges;
+  for (const SceneObject& object : scene.objects) {
+    if (!object.casts || object.mesh.empty()) continue;
+    const auto first_index = static_cast<std::uint32_t>(indices.size());
+    const auto first_point = static_cast<std::uint32_t>(points.size());
+    for (const Vec3& p : object.mesh.positions()) points.push_back(glm::vec3((p - origin) * scale));
+    for (const IndexedTriangle& t : object.mesh.triangles())
+      for (std::uint32_t v : t) indices.push_back(first_point + v);
+    ranges.push_back({first_index, static_cast<std::uint32_t>(indices.size()) - first_index});
+    casters.push_back(&object.mesh);
+    thickness.push_back(detail::mean_thickness(object.mesh));
+  }
+  masks = std::make_unique<detail::OcclusionMasks>(context.functions(), points, indices, std::move(ranges));
+  gl::require_no_error(context.functions(), "uploading casters");
+}
+
+detail::DepthRange OcclusionTextures::Impl::range_to_slice(const detail::DepthRange& of_casters,
+                                                           const detail::SliceSpace& space,
+                                                           const OcclusionOptions& options) const {
+  if (options.range == SliceRange::kCasters) return of_casters;
+  detail::DepthRange all = of_casters, others;
+  for (const SceneObject& object : scene.objects)
+    for (const Vec3& p : object.mesh.positions())
+      (object.casts ? all : others).add(std::max(space.to_light(p).z, detail::kNearSlice));
+  all.add(others);
+  const double slice = (all.far - all.near) / options.slices;
+  const bool contact = others.near < of_casters.far + slice;
+  return options.range == SliceRange::kAuto && contact ? of_casters : all;
+}
+
+OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceSpace& space,
+                                                            const OcclusionOptions& options) const {
+  Plan plan;
+  detail::DepthRange depth;
+  for (const TriangleMesh* mesh : casters) {
+    plan.extents.push_back(detail::caster_extent(*mesh, space));
+    depth.add(plan.extents.back().depth);
+  }
+  plan.nothing_casts = depth.empty();
+  if (plan.nothing_casts) return plan;
+  plan.frustum = detail::fit_frustum(plan.extents, range_to_slice(depth, space, options), space, options);
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    const bool leaks = options.thin_fix == ThinFix::kAuto &&
+                       detail::may_leak(thickness[i], plan.extents[i], space, plan.frustum);
+    const bool solid = casters[i]->is_closed() && !plan.extents[i].cut;
+    plan.drawings.push_back({.fills_next = leaks || options.thin_fix == ThinFix::kOn,
+                             .front_only = solid && options.faces == SliceFaces::kFront});
+  }
+  return plan;
+}
+
+/// `lookup`: none where nothing casts.
+void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
+                                      const detail::OcclusionLookup* lookup, const Progress& progress,
+                                      std::vector<float>& visibility) const {
+  visibility.assign(surface.size(), 1.0f);
+  using detail::SliceReceivers;
+  // Neighbours in both directions look at the same texels.
+  const auto tile = [&](int left, int top) {
+    SliceReceivers receivers;
+    std::array<std::size_t, SliceReceivers::kMost> pixels;
+    for (int y = top; y < std::min(top + kTile, surface.height); ++y)
+      for (int x = left; x < std::min(left + kTile, surface.width); ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
+                              static_cast<std::size_t>(x);
+        if (!surface.hit(i)) continue;
+        const Vec3 p = space.to_light(surface.position[i]);
+        const double above = fraction_above_horizon(space.light, surface.position[i], surface.normal[i]);
+        visibility[i] = static_cast<float>(above);
+        if (!lookup || !(p.z > 0.0) || !(above > 0.0)) continue;
+        pixels[receivers.count] = i;
+        receivers.add(p, above);
+      }
+    if (lookup) lookup->look_up(receivers);
+    for (std::size_t k = 0; k < receivers.count; ++k)
+      visibility[pixels[k]] = static_cast<float>(receivers.visibility[k]);
+  };
+  const int rows = (surface.height + kTile - 1) / kTile;
+  for (int first = 0; first < rows; first += kRowsAtOnce) {
+    report(progress, static_cast<double>(first) / rows);
+    arena.execute([&] {
+      tbb::parallel_for(first, std::min(rows, first + kRowsAtOnce), [&](int row) {
+        for (int left = 0; left < surface.width; left += kTile) tile(left, row * kTile);
+      });
+    });
+  }
+}
+
+OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                                               const Progress& progress) {
+  OcclusionFrame frame;
+  StageClock clock;
+  const detail::SliceSpace space(area_light(scene), scale);
+  const Plan plan = this->plan(space, options);
+  clock.finish("frustum");
+  frame.counts = {{"casters", casters.size()}, {"slices_in_use", 0}, {"texture_bytes", 0}};
+  std::unique_ptr<detail::OcclusionLookup> lookup;
+  if (!plan.nothing_casts) {
+    const LightFrame& f = space.light.axes;
+    const glm::mat3 axes(glm::transpose(glm::dmat3(f.u, f.v, f.w)));
+    auto slices =
+        masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
+    report(progress, 0.0);
+    arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
+    clock.finish("prefilter");
+    const auto used = std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); });
+    const auto thin =
+        std::count_if(plan.drawings.begin(), plan.drawings.end(), [](const auto& d) { return d.fills_next; });
+    frame.counts["slices_in_use"] = used;
+    frame.counts["thin_casters"] = thin;
+    frame.counts["slice_thickness"] = plan.frustum.thickness / space.scale;
+    frame.counts["cop_offset"] = plan.frustum.narrowing > 0.0
+                                     ? nlohmann::json(1.0 / (plan.frustum.narrowing * space.scale))
+                                     : nlohmann::json("orthographic");
+    frame.counts["texture_bytes"] = lookup->bytes();
+    for (std::size_t i = 0; i < slices.size(); ++i)
+      if (!slices[i].empty())
+        frame.textures.push_back(
+            {"slice " + std::to_string(i + 1), options.texture_size, std::move(slices[i])});
+  }
+  look_up(space, surface, lookup.get(), progress, frame.visibility);
+  clock.finish("visibility");
+  gl::require_no_error(context.functions(), "rendering occlusion textures");
+  frame.stages = clock.stages();
+  return frame;
+}
+
+std::span<const NamedValue<OcclusionFilter>> occlusion_filters() {
+  static constexpr NamedValue<OcclusionFilter> kNames[] = {{OcclusionFilter::kMipmap, "mipmap"},
+                                                           {OcclusionFilter::kNBuffer, "nbuffer"},
+                                                           {OcclusionFilter::kSummedArea, "sat"}};
+  return kNames;
+}
+
+std::span<const NamedValue<OcclusionCombine>> occlusion_combines() {
+  static constexpr NamedValue<OcclusionCombine> kNames[] = {{OcclusionCombine::kProduct, "product"},
+                                                            {OcclusionCombine::kSum, "sum"},
+                                                            {OcclusionCombine::kMaximum, "maximum"}};
+  return kNames;
+}
+
+std::span<const NamedValue<OcclusionKernel>> occlusion_kernels() {
+  static constexpr NamedValue<OcclusionKernel> kNames[] = {{OcclusionKernel::kBox, "box"},
+                                                           {OcclusionKernel::kDisk, "disk"}};
+  return kNames;
+}
+
+std::span<const NamedValue<ThinFix>> thin_fixes() {
+  static constexpr NamedValue<ThinFix> kNames[] = {
+      {ThinFix::kOff, "off"}, {ThinFix::kOn, "on"}, {ThinFix::kAuto, "auto"}};
+  return kNames;
+}
+
+std::span<const NamedValue<SliceRange>> slice_ranges() {
+  static constexpr NamedValue<SliceRange> kNames[] = {
+      {SliceRange::kScene, "scene"}, {SliceRange::kCasters, "casters"}, {SliceRange::kAuto, "auto"}};
+  return kNames;
+}
+
+std::span<const NamedValue<SliceCoverage>> slice_coverages() {
+  static constexpr NamedValue<SliceCoverage> kNames[] = {{SliceCoverage::kBinary, "binary"},
+                                                         {SliceCoverage::kArea, "area"}};
+  return kNames;
+}
+
+std::span<const NamedValue<SliceFaces>> slice_faces() {
+  static constexpr NamedValue<SliceFaces> kNames[] = {{SliceFaces::kAll, "all"},
+                                                      {SliceFaces::kFront, "front"}};
+  return kNames;
+}
+
+OcclusionTextures::OcclusionTextures(gl::Context& context, const Scene& scene, int threads) {
+  context.make_current();
+  const gl::StateScope scope(context.functions());
+  impl_ = std::make_unique<Impl>(context, scene, threads);
+}
+
+OcclusionTextures::~OcclusionTextures() {
+  if (impl_) impl_->context.make_current();
+}
+
+OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+                                         const Progress& progress) {
+  require_valid(options);
+  impl_->context.make_current();
+  const gl::StateScope scope(impl_->context.functions());
+  return impl_->render(surface, options, progress);
+}
+
+}  // namespace penumbra

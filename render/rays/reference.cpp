@@ -1,0 +1,261 @@
+#include "render/rays/reference.h"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <mutex>
+
+#include "render/light/area_light.h"
+#include "render/light/disk_samples.h"
+#include "render/rays/ray_scene_impl.h"
+#include "render/support/vector_clones.h"
+
+namespace penumbra {
+namespace {
+
+constexpr int kLanes = 16;
+
+/// Where each sample's stratum lies, so that no lane divides.
+struct StratumTable {
+  explicit StratumTable(int samples) : strata(samples) {
+    const int padded = (strata.count() + kLanes - 1) / kLanes * kLanes;
+    for (int i = 0; i < padded; ++i) {
+      columns.push_back(static_cast<float>(i % strata.columns));
+      rows.push_back(static_cast<float>(i / strata.columns));
+    }
+  }
+  detail::Strata strata;
+  std::vector<float> columns, rows;
+};
+
+/// The light and one receiver in the local frame, float.
+struct LocalLight {
+  glm::vec3 center, u, v;  ///< u and v are half axes of the disk or the rectangle
+  bool disk;
+  glm::vec3 normal;
+};
+
+LocalLight local_light(const AreaLight& light, const RayFrame& frame) {
+  return {glm::vec3(frame.to_local(light.center)), glm::vec3(light.axes.u * (light.half.x * frame.scale)),
+          glm::vec3(light.axes.v * (light.half.y * frame.scale)), light.disk, glm::vec3(light.axes.w)};
+}
+
+struct Receiver {
+  glm::vec3 origin, normal;
+};
+
+Receiver local_receiver(const SurfaceBuffer& surface, std::size_t pixel, const RayFrame& frame) {
+  const Vec3 p = frame.to_local(surface.position[pixel]) + kRayOffset * surface.normal[pixel];
+  return {glm::vec3(p), glm::vec3(surface.normal[pixel])};
+}
+
+/// Sixteen directions from a receiver to disk samples, and which of them are above its horizon.
+struct Aim {
+  alignas(64) float x[kLanes], y[kLanes], z[kLanes];
+  alignas(64) int above[kLanes];
+};
+
+PENUMBRA_VECTOR_CLONES
+void aim_at_samples(const Receiver& from, const LocalLight& light, const StratumTable& table,
+                    std::uint32_t key, int first, Aim& out) {
+  const float per_column = 1.0f / static_cast<float>(table.strata.columns);
+  const float per_row = 1.0f / static_cast<float>(table.strata.rows);
+  const glm::vec3 base = light.center - from.origin, u = light.u, v = light.v, n = from.normal;
+  const float* columns = table.columns.data() + first;
+  const float* rows = table.rows.data() + first;
+  alignas(64) float a[kLanes], b[kLanes];
+  for (int k = 0; k < kLanes; ++k) {
+    const detail::DiskPoint p = detail::stratum_sample(key, static_cast<std::uint32_t>(first + k), columns[k],
+                                                       rows[k], per_column, per_row);
+    a[k] = p.x;
+    b[k] = p.y;
+  }
+  if (light.disk)
+    for (int k = 0; k < kLanes; ++k) {
+      const detail::DiskPoint p = detail::concentric_disk(a[k], b[k]);
+      a[k] = p.x;
+      b[k] = p.y;
+    }
+  else
+    for (int k = 0; k < kLanes; ++k) {
+      a[k] = 2.0f * a[k] - 1.0f;
+      b[k] = 2.0f * b[k] - 1.0f;
+    }
+  for (int k = 0; k < kLanes; ++k) {
+    out.x[k] = base.x + u.x * a[k] + v.x * b[k];
+    out.y[k] = base.y + u.y * a[k] + v.y * b[k];
+    out.z[k] = base.z + u.z * a[k] + v.z * b[k];
+    out.above[k] = n.x * out.x[k] + n.y * out.y[k] + n.z * out.z[k] > 0.0f ? -1 : 0;
+  }
+}
+
+/// What does not change from packet to packet of one receiver.
+void start_packet(const Receiver& x, RTCRay16& packet) {
+  for (int k = 0; k < kLanes; ++k) {
+    packet.org_x[k] = x.origin.x;
+    packet.org_y[k] = x.origin.y;
+    packet.org_z[k] = x.origin.z;
+    packet.tnear[k] = 0.0f;
+    packet.time[k] = 0.0f;
+    packet.mask[k] = ~0u;
+    packet.id[k] = 0;
+    packet.flags[k] = 0;
+  }
+}
+
+struct Counts {
+  int visible = 0;    ///< unblocked and above the horizon
+  int unblocked = 0;  ///< unblocked
+  std::size_t rays = 0;
+};
+
+/// The packet's rays one by one, as a plain use of Embree would trace them.
+void trace_singly(const RayScene& rays, const int* valid, RTCIntersectContext& context, RTCRay16& packet) {
+  for (int k = 0; k < kLanes; ++k) {
+    if (!valid[k]) continue;
+    RTCRay ray{};
+    ray.org_x = packet.org_x[k], ray.org_y = packet.org_y[k], ray.org_z = packet.org_z[k];
+    ray.dir_x = packet.dir_x[k], ray.dir_y = packet.dir_y[k], ray.dir_z = packet.dir_z[k];
+    ray.tfar = packet.tfar[k];
+    ray.mask = packet.mask[k];
+    rtcOccluded1(rays.impl().casters, &context, &ray);
+    packet.tfar[k] = ray.tfar;
+  }
+}
+
+/// `all`: also trace what is below the horizon, for the unblocked count.
+Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight& light,
+                      const StratumTable& table, std::uint32_t key, bool all, bool packets) {
+  Counts counts;
+  Aim aim;
+  alignas(64) RTCRay16 packet;
+  alignas(64) int valid[kLanes];
+  start_packet(x, packet);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  const float end = ray_end(glm::dot(x.origin - light.center, light.normal));
+  for (int first = 0; first < table.strata.count(); first += kLanes) {
+    aim_at_samples(x, light, table, key, first, aim);
+    const int count = std::min(kLanes, table.strata.count() - first);
+    int lanes = 0;
+    for (int k = 0; k < kLanes; ++k) {
+      valid[k] = k < count && (all || aim.above[k]) ? -1 : 0;
+      lanes -= valid[k];
+      packet.dir_x[k] = aim.x[k];
+      packet.dir_y[k] = aim.y[k];
+      packet.dir_z[k] = aim.z[k];
+      packet.tfar[k] = end;
+    }
+    if (lanes == 0) continue;
+    counts.rays += static_cast<std::size_t>(lanes);
+    if (packets)
+      rtcOccluded16(valid, rays.impl().casters, &context, &packet);
+    else
+      trace_singly(rays, valid, context, packet);
+    for (int k = 0; k < kLanes; ++k) {
+      const int open =
+          valid[k] & (packet.tfar[k] >= 0.0f ? -1 : 0);  // Embree sets tfar to -infinity at a hit
+      counts.visible -= open & aim.above[k];
+      counts.unblocked -= open;
+    }
+  }
+  return counts;
+}
+
+/// Runs `body(i)` for every index of `pixels` on the scene's threads, in blocks, reporting progress.
+template <class Body>
+void for_each_pixel(const RayScene& rays, std::size_t count, const Progress& progress, const Body& body) {
+  constexpr std::size_t kBlock = 256;
+  const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  std::atomic<std::size_t> done{0};
+  std::atomic<bool> stop{false};
+  std::mutex reporting;
+  rays.impl().arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+      if (stop) return;
+      for (std::size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) body(i);
+      const std::size_t finished = ++done;
+      if (progress && finished % 16 == 0 && reporting.try_lock()) {
+        if (!progress(static_cast<double>(finished) / static_cast<double>(blocks))) stop = true;
+        reporting.unlock();
+      }
+    });
+  });
+  if (stop) throw Cancelled();
+}
+
+}  // namespace
+
+ReferenceResult trace_reference(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+                                std::span<const std::uint32_t> pixels, const ReferenceOptions& options,
+                                bool with_unblocked, const Progress& progress) {
+  if (options.samples < 1 || options.samples > (1 << 20))
+    throw UsageError("samples must lie in 1 to 1048576, not " + std::to_string(options.samples));
+  if (scene.light.radius == 0.0) return trace_hard(scene, rays, surface, pixels);
+  const auto start = std::chrono::steady_clock::now();
+  const StratumTable table(options.samples);
+  const LocalLight light = local_light(area_light(scene), rays.frame());
+  ReferenceResult out;
+  out.samples = table.strata.count();
+  out.visibility.assign(pixels.size(), 1.0f);
+  if (with_unblocked) out.unblocked.assign(pixels.size(), 1.0f);
+  std::atomic<std::size_t> traced{0};
+  const float per_sample = 1.0f / static_cast<float>(table.strata.count());
+  for_each_pixel(rays, pixels.size(), progress, [&](std::size_t i) {
+    const std::size_t pixel = pixels[i];
+    if (!surface.hit(pixel)) return;
+    if (is_behind(scene.light, surface.position[pixel])) {
+      out.visibility[i] = 0.0f;
+      if (with_unblocked) out.unblocked[i] = 0.0f;
+      return;
+    }
+    const Counts counts =
+        trace_receiver(rays, local_receiver(surface, pixel, rays.frame()), light, table,
+                       detail::sample_key(options.seed, pixels[i]), with_unblocked, options.packets);
+    out.visibility[i] = static_cast<float>(counts.visible) * per_sample;
+    if (with_unblocked) out.unblocked[i] = static_cast<float>(counts.unblocked) * per_sample;
+    traced += counts.rays;
+  });
+  out.rays = traced;
+  out.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return out;
+}
+
+ReferenceResult trace_hard(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+                           std::span<const std::uint32_t> pixels) {
+  const auto start = std::chrono::steady_clock::now();
+  const glm::vec3 center(rays.frame().to_local(scene.light.center)), normal(light_frame(scene.light).w);
+  ReferenceResult out;
+  out.visibility.assign(pixels.size(), 1.0f);
+  std::atomic<std::size_t> traced{0};
+  for_each_pixel(rays, pixels.size(), {}, [&](std::size_t i) {
+    const std::size_t pixel = pixels[i];
+    if (!surface.hit(pixel)) return;
+    const Receiver x = local_receiver(surface, pixel, rays.frame());
+    const glm::vec3 d = center - x.origin;
+    if (is_behind(scene.light, surface.position[pixel]) || glm::dot(x.normal, d) <= 0.0f) {
+      out.visibility[i] = 0.0f;
+      return;
+    }
+    RTCRay ray{};
+    ray.org_x = x.origin.x, ray.org_y = x.origin.y, ray.org_z = x.origin.z;
+    ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
+    ray.tfar = ray_end(-glm::dot(d, normal));
+    ray.mask = ~0u;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(rays.impl().casters, &context, &ray);
+    out.visibility[i] = ray.tfar >= 0.0f ? 1.0f : 0.0f;
+    ++traced;
+  });
+  out.rays = traced;
+  out.milliseconds =
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return out;
+}
+
+}  // namespace penumbra

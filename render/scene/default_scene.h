@@ -1,0 +1,19 @@
+// What a scene gets where its file says nothing: a bare mesh becomes a scene, a scene without a camera gets
+// one.
+#pragma once
+
+#include <filesystem>
+
+#include "penumbra/mesh/io/polygon_soup.h"
+#include "penumbra/render/scene/scene.h"
+
+namespace penumbra::detail {
+
+/// A camera in front, to the right and above, that sees all of `bounds`. The bounds must not be empty.
+Camera camera_for(const Bounds& bounds);
+
+/// The mesh (object 1) above a floor that does not cast (object 0), with a disk light above and a camera, all
+/// in proportion to the mesh's bounds. y is up.
+Scene scene_around(const TriangleMesh& mesh, const std::string& name);
+
+}  // namespace penumbra::detail

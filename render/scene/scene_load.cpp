@@ -1,0 +1,85 @@
+// load_scene: from a file to a JSON document or a bare mesh.
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include "penumbra/mesh/error.h"
+#include "penumbra/render/scene/scene.h"
+#include "render/scene/default_scene.h"
+#include "render/scene/scene_mesh.h"
+
+namespace penumbra {
+namespace {
+
+// A scene names its meshes, it does not hold them: more than this is no scene.
+constexpr std::size_t kMaxSceneBytes = 16u << 20;
+// A scene nests four deep; the rest is room for `x-` keys. Copying and writing JSON recurse, so depth must
+// have an end.
+constexpr int kMaxDepth = 64;
+
+std::string read_scene_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw SceneError(path.string() + ": no such file; check the path of the scene");
+  if (std::filesystem::is_directory(path, ignored))
+    throw SceneError(path.string() + ": is a folder; name the scene file in it");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw SceneError(path.string() + ": cannot be opened; check its permissions");
+  std::string text;
+  char block[1 << 16];
+  while (in.read(block, sizeof block) || in.gcount() > 0) {
+    text.append(block, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kMaxSceneBytes)
+      throw SceneError(path.string() +
+                       ": is larger than 16 MiB, no scene file; keep large data in mesh files");
+  }
+  if (text.empty()) throw SceneError(path.string() + ": is empty; a scene file holds one JSON object");
+  return text;
+}
+
+nlohmann::json parse_document(const std::string& text, const std::string& name) {
+  const auto limit_depth = [&name](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
+    if (depth > kMaxDepth)
+      throw SceneError(name + ": nests deeper than " + std::to_string(kMaxDepth) + " levels; flatten it");
+    return true;
+  };
+  try {
+    return nlohmann::json::parse(text, limit_depth);
+  } catch (const nlohmann::json::exception& e) {
+    std::string reason = e.what();  // "[json.exception.parse_error.101] parse error at line …"
+    if (const auto end = reason.find("] "); end != std::string::npos) reason.erase(0, end + 2);
+    throw SceneError(name + ": " + reason);
+  }
+}
+
+bool is_scene_file(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".json";
+}
+
+LoadedScene load_bare_mesh(const std::filesystem::path& path) {
+  detail::MeshCache meshes;
+  const detail::MeshCache::Entry& entry = meshes.get(path);
+  TriangleMesh mesh;
+  try {
+    mesh = detail::place_mesh(entry, {});
+  } catch (const MeshError& e) {
+    throw MeshError(path.string() + ": " + e.what());
+  }
+  LoadedScene loaded{.scene = detail::scene_around(mesh, path.string()), .warnings = {}};
+  const std::string summary = detail::summary_of(entry.triangulation, mesh.report());
+  if (!summary.empty()) loaded.warnings.push_back(path.string() + ": " + summary);
+  return loaded;
+}
+
+}  // namespace
+
+LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options) {
+  if (!is_scene_file(path)) return load_bare_mesh(path);
+  const std::string name = path.string();
+  return parse_scene(parse_document(read_scene_text(path), name), path.parent_path(), name, options);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,184 @@
+#include "render/silhouette/areas/projected_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "render/silhouette/areas/disk_part.h"
+#include "render/support/vector_clones.h"
+
+namespace penumbra::detail {
+namespace {
+
+constexpr double kHair = 0x1p-23;
+constexpr std::size_t kFewEdges = 6;  // one by one: vectors would not be filled
+
+/// How a projected edge lies; the numbers are in the order in which they are looked for.
+enum State : std::int64_t {
+  kFar,      ///< beyond the certificate's margin
+  kBelow,    ///< near, but wholly below the horizon
+  kCrosses,  ///< near
+  kInside,   ///< both ends in the disk and above the horizon
+  kUnclear   ///< an end does not lie below the receiver
+};
+
+/// Whether segment a b comes within 1 + slack of the disk's centre, its ends being outside of the disk, from
+/// |a|², |b|², s = b - a, a·s and a × s. No division: ends may be far away.
+PENUMBRA_INLINE bool comes_near(double a2, double b2, double s2, double as, double cross, double reach2) {
+  const bool before = as >= 0.0, beyond = -as >= s2;
+  return ((before & (a2 < reach2)) | (beyond & (b2 < reach2)) |
+          (!before & !beyond & (cross * cross < reach2 * s2)));
+}
+
+/// The receiver, and the margin.
+struct Eye {
+  double x, y, z, least, reach2, horizon_x, horizon_y, horizon_delta;
+};
+
+PENUMBRA_VECTOR_CLONES
+void project(const double* ends, std::int32_t stride, const std::int32_t* places, int count, const Eye& eye,
+             double* __restrict ax, double* __restrict ay, double* __restrict bx, double* __restrict by,
+             std::int64_t* __restrict states) {
+  const Eye e = eye;
+  for (int i = 0; i < count; ++i) {
+    const std::int32_t at = stride * places[i];
+    const double wa = e.z - ends[at + 2], wb = e.z - ends[at + 5];
+    const double ga = e.z / wa, gb = e.z / wb;
+    const double px = e.x + (ends[at] - e.x) * ga, py = e.y + (ends[at + 1] - e.y) * ga;
+    const double qx = e.x + (ends[at + 3] - e.x) * gb, qy = e.y + (ends[at + 4] - e.y) * gb;
+    const double p2 = px * px + py * py, q2 = qx * qx + qy * qy;
+    const double sx = qx - px, sy = qy - py;
+    const bool p_in = p2 < 1.0, q_in = q2 < 1.0;
+    const bool near =
+        p_in | q_in | comes_near(p2, q2, sx * sx + sy * sy, px * sx + py * sy, px * sy - py * sx, e.reach2);
+    const bool p_above = e.horizon_x * px + e.horizon_y * py + e.horizon_delta > 0.0;
+    const bool q_above = e.horizon_x * qx + e.horizon_y * qy + e.horizon_delta > 0.0;
+    const bool below = (wa > e.least) & (wb > e.least);
+    const std::int64_t state = near ? ((p_in & q_in & p_above & q_above) ? kInside
+                                       : (p_above | q_above)             ? kCrosses
+                                                                         : kBelow)
+                                    : kFar;
+    ax[i] = px, ay[i] = py, bx[i] = qx, by[i] = qy;
+    states[i] = below ? state : kUnclear;
+  }
+}
+
+/// One edge at a time, for those that `project` or the floats before it left open.
+void see_one(const BandEdge& edge, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
+  const Projection p = see(edge, x, slack);
+  if (!p.near) return;
+  out.certain = false;
+  if (p.segment.jump == 0) return;
+  if (!(height(horizon, p.segment.a) > 0.0) && !(height(horizon, p.segment.b) > 0.0)) return;
+  out.crossing.push_back(p.segment);
+}
+
+/// The sifted edges: in vectors, and then one by one what they left open. `ends`: those of the edge at place
+/// i from stride · i.
+template <class EdgeAt>
+void see_sifted(const Sifted& sifted, const double* ends, std::int32_t stride, const EdgeAt& edge_at,
+                const Vec3& x, const Chord& horizon, double slack, Sight& out) {
+  const std::size_t count = sifted.count;
+  for (auto& column : out.ends) column.resize(std::max(column.size(), count));
+  out.states.resize(std::max(out.states.size(), count));
+  out.segments.resize(count);
+  const double reach = 1.0 + slack;
+  const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
+               *by = out.ends[3].data();
+  project(ends, stride, sifted.places.data(), static_cast<int>(count),
+          {x.x, x.y, x.z, kHair * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
+          out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t state = out.states[i];
+    const std::int32_t jump = sifted.jumps[i];
+    const bool sure = jump != Sifted::kUnsure;
+    out.segments[inside] = {{ax[i], ay[i]}, {bx[i], by[i]}, jump};
+    if (state == kInside && sure) {
+      ++inside;
+      continue;
+    }
+    if (state == kFar) continue;
+    if (state == kUnclear || !sure) {
+      see_one(edge_at(sifted.places[i]), x, horizon, slack, out);
+    } else {
+      out.certain = false;
+      if (state == kCrosses) out.crossing.push_back(out.segments[inside]);
+    }
+  }
+  out.inside = inside;
+  out.certain = out.certain && inside == 0;
+  out.segments.resize(inside);
+  out.segments.insert(out.segments.end(), out.crossing.begin(), out.crossing.end());
+}
+
+}  // namespace
+
+void Sight::clear() {
+  segments.clear();
+  inside = 0;
+  certain = true;
+  crossing.clear();
+}
+
+double certificate_slack(double extent) {
+  return 1e-6 + 0x1p-26 * extent;
+}
+
+Projection see(const BandEdge& e, const Vec3& x, double slack) {
+  const double left = e.left.value(x), right = e.has_right() ? e.right.value(x) : 0.0;
+  const int jump = (left > 0.0 ? 1 : -1) + (e.has_right() ? (right > 0.0 ? -1 : 1) : 0);
+  const bool sure = std::abs(left) > e.left.tolerance && std::abs(right) > e.right.tolerance;
+  if (jump == 0 && sure) return {{}, false};
+
+  // Where an end is not below the receiver, the point of the edge that is so by a hair.
+  const double least = kHair * x.z;
+  double wa = x.z - e.a.z, wb = x.z - e.b.z;
+  if (!(wa > least) && !(wb > least)) return {{}, false};
+  glm::dvec2 a(e.a), b(e.b);
+  const double wa0 = wa, wb0 = wb;
+  if (!(wa > least)) a += ((least - wa0) / (wb0 - wa0)) * (glm::dvec2(e.b) - a), wa = least;
+  if (!(wb > least)) b += ((least - wb0) / (wa0 - wb0)) * (glm::dvec2(e.a) - b), wb = least;
+  const glm::dvec2 from(x);
+  const glm::dvec2 pa = from + (a - from) * (x.z / wa), pb = from + (b - from) * (x.z / wb);
+
+  if (glm::dot(pa, pa) < 1.0 || glm::dot(pb, pb) < 1.0) return {{pa, pb, jump}, true};
+  const glm::dvec2 s = pb - pa;
+  const double reach = 1.0 + slack;
+  return {{pa, pb, jump},
+          comes_near(glm::dot(pa, pa), glm::dot(pb, pb), glm::dot(s, s), glm::dot(pa, s),
+                     pa.x * s.y - pa.y * s.x, reach * reach)};
+}
+
+void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
+  out.clear();
+  if (list.size() <= kFewEdges) {
+    for (std::size_t i = 0; i < list.size(); ++i) see_one(list.edge(list.place(i)), x, horizon, slack, out);
+    std::swap(out.segments, out.crossing);
+    return;
+  }
+  sift(list, x, out.sifted);
+  see_sifted(
+      out.sifted, list.ends(), 6, [&](std::int32_t place) -> const BandEdge& { return list.edge(place); }, x,
+      horizon, slack, out);
+}
+
+void look(const Band& band, const Sifted& sifted, const Vec3& x, const Chord& horizon, double slack,
+          Sight& out) {
+  static_assert(offsetof(BandEdge, b) == 3 * sizeof(double) && sizeof(BandEdge) % sizeof(double) == 0);
+  constexpr std::int32_t kStride = sizeof(BandEdge) / sizeof(double);
+  out.clear();
+  if (sifted.count == 0) return;
+  for (std::size_t i = 0; i < sifted.count; ++i)
+    __builtin_prefetch(&band.edges[static_cast<std::size_t>(sifted.places[i])]);
+  see_sifted(
+      sifted, &band.edges[0].a.x, kStride,
+      [&](std::int32_t place) -> const BandEdge& { return band.edges[static_cast<std::size_t>(place)]; }, x,
+      horizon, slack, out);
+}
+
+}  // namespace penumbra::detail

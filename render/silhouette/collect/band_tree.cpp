@@ -1,0 +1,47 @@
+#include "render/silhouette/collect/band_tree.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace penumbra::detail {
+namespace {
+
+std::vector<BlockBounds> bounds_of_blocks(const Band& band) {
+  if (band.is_merged()) return band.bounds;
+  constexpr std::size_t kEdges = BandTree::kFanOut;
+  std::vector<BlockBounds> out((band.edges.size() + kEdges - 1) / kEdges);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 512), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i)
+      out[i] = bounds_of_edges(band.edges.data() + i * kEdges,
+                               band.edges.data() + std::min((i + 1) * kEdges, band.edges.size()));
+  });
+  return out;
+}
+
+}  // namespace
+
+PENUMBRA_VECTOR_CLONES
+std::size_t keep(const ShaftTest& test, const Children* nodes, const Siblings* in, std::size_t count,
+                 Siblings* out) {
+  return keep_with(test, nodes, in, count, out);
+}
+
+BandTree::BandTree(const Band& band) : tree_(bounds_of_blocks(band), band.extent) {}
+
+bool BandTree::misses(const Shaft& shaft) const {
+  return tree_.empty() || shaft.misses(tree_.box().low, tree_.box().high);
+}
+
+void BandTree::gather(const Shaft& shaft, std::vector<Siblings>& out) const {
+  tree_.gather(ShaftTest(shaft, tree_.extent()), out);
+}
+
+void BandTree::narrow(const std::vector<Siblings>& list, std::span<const Receiver> receivers,
+                      std::vector<Siblings>& out) const {
+  Bounds box;
+  for (const Receiver& r : receivers) box.add(r.x);
+  tree_.narrow(list, SidesTest(box.center(), 0.5 * (box.high - box.low)), out);
+}
+
+}  // namespace penumbra::detail

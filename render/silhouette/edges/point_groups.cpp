@@ -1,0 +1,60 @@
+#include "render/silhouette/edges/point_groups.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "mesh/vectors.h"
+#include "render/silhouette/collect/light_band.h"
+
+namespace penumbra::detail {
+namespace {
+
+constexpr std::size_t kGroup = 256;    // points
+constexpr double kRounding = 0x1p-46;  // of coordinates
+
+std::span<const Vec3> group(std::span<const Vec3> points, std::size_t i) {
+  return points.subspan(i * kGroup, std::min(kGroup, points.size() - i * kGroup));
+}
+
+/// Around a box in the light's frame.
+Bounds around(const Bounds& world, const UnitLight& light) {
+  const Vec3 middle = light.point(world.center()), half = 0.5 * (world.high - world.low);
+  const double far = std::max(largest_component(world.low), largest_component(world.high));
+  Vec3 reach(kRounding * (largest_component(middle) + light.per_radius() * far));
+  for (int k = 0; k < 3; ++k) {
+    Vec3 side(0.0);
+    side[k] = half[k];
+    reach += light.per_radius() * glm::abs(light.direction(side));
+  }
+  return {middle - reach, middle + reach};
+}
+
+void add(const Vec3& p, Bounds& box) {
+  box.low = glm::min(box.low, p);
+  box.high = glm::max(box.high, p);
+}
+
+}  // namespace
+
+PointGroups::PointGroups(std::span<const Vec3> points)
+    : points_(points), groups_((points.size() + kGroup - 1) / kGroup) {
+  tbb::parallel_for(std::size_t{0}, groups_.size(),
+                    [&](std::size_t i) { groups_[i] = bounds_of(group(points_, i)); });
+}
+
+Bounds PointGroups::box_in(const UnitLight& light) const {
+  Bounds out;
+  for (std::size_t i = 0; i < groups_.size(); ++i) add(light.point(group(points_, i).front()), out);
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const Bounds box = around(groups_[i], light);
+    if (glm::all(glm::lessThanEqual(out.low, box.low)) && glm::all(glm::lessThanEqual(box.high, out.high)))
+      continue;
+    for (const Vec3& p : group(points_, i)) add(light.point(p), out);
+  }
+  return out;
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,216 @@
+#include "render/silhouette/edges/scene_edges.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "mesh/vectors.h"
+#include "render/support/kd_order.h"
+
+namespace penumbra::detail {
+namespace {
+
+constexpr std::size_t kLanes = kFloatLanes;
+constexpr std::size_t kCacheLine = 64;
+
+struct Placed {
+  std::array<float, 3> at;  ///< its middle
+  SceneEdge edge;
+};
+
+/// All edges of casters, as they come.
+LargeArray<Placed> edges_of(const Scene& scene) {
+  std::size_t size = 0;
+  for (const SceneObject& o : scene.objects) size += o.casts ? o.mesh.edges().size() : 0;
+  LargeArray<Placed> out(size);
+  std::size_t at = 0;
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const SceneObject& o = scene.objects[object];
+    for (std::uint32_t i = 0; o.casts && i < o.mesh.edges().size(); ++i, ++at) {
+      const Edge& e = o.mesh.edges()[i];
+      const glm::vec3 middle(0.5 * o.mesh.position(e.from) + 0.5 * o.mesh.position(e.to));
+      out[at].at = {middle.x, middle.y, middle.z};
+      out[at].edge = {object, EdgeId{i}};
+    }
+  }
+  return out;
+}
+
+LargeArray<SceneEdge> neighbours_together(LargeArray<Placed> edges) {
+  order_by_place(edges.data(), edges.data() + edges.size(), kLanes);
+  LargeArray<SceneEdge> out(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) out[i] = edges[i].edge;
+  return out;
+}
+
+/// 1 or -1 where all of the disk is in front of a plane or behind it, 0 where that is not certain: a plane
+/// with unit normal n is at most radius · √(1 - (n·normal)²) farther from some point than from the center.
+PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, const std::array<float, 3>& c,
+                                Ints& out) {
+  const auto& m = disk.normal;
+  const Floats value = plane.x * c[0] + plane.y * c[1] + plane.z * c[2] + plane.offset;
+  const Floats along = plane.x * m[0] + plane.y * m[1] + plane.z * m[2];
+  const Floats steep2 = 1.0f - along * along;
+  const Floats none{};
+  const Floats rise2 = (steep2 > 0.0f ? steep2 : none) + 0x1p-20f;
+  const Floats beyond = magnitude(value) - plane.tolerance - disk.margin;
+  const Ints clear = (beyond > 0.0f) & (beyond * beyond > 1.0001f * disk.radius2 * rise2);
+  out = clear & ((value < 0.0f) - (value > 0.0f));
+}
+
+/// Bit i is clear where both faces of edge i have all of the disk on one side, the same.
+PENUMBRA_VECTOR_CLONES
+std::uint32_t may_be_in_band(const LocalPlanes& block, const FloatDisk& disk) {
+  const std::array<float, 3> center = block.from_origin(disk.center);
+  Ints left, right;
+  sides_over(block.planes.left, disk, center, left);
+  sides_over(block.planes.right, disk, center, right);
+  return bits_of(~((left == right) & (left != 0)));
+}
+
+}  // namespace
+
+FloatDisk::FloatDisk(const DiskLight& light, const Vec3& origin, double scale)
+    : center((light.center - origin) * scale) {
+  const Vec3 middle = (light.center - origin) * scale, unit_normal = unit(light.normal);
+  const double radius = light.radius * scale;
+  // The light may lie farther out than it did when the frame was made.
+  const double extent = std::max(1.0, largest_component(middle) + radius);
+  const Vec3 half = radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - unit_normal * unit_normal));
+  box = FloatBox(middle, half + kBoundsGrain * extent);
+  normal = FloatBox(unit_normal, half).middle;
+  radius2 = static_cast<float>(radius * radius);
+  margin = static_cast<float>(0x1p-18 * extent);
+}
+
+SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
+    : origin_(origin),
+      scale_(scale),
+      edges_(neighbours_together(edges_of(scene))),
+      planes_((edges_.size() + kLanes - 1) / kLanes) {
+  const auto to_frame = [&](const Vec3& p) { return (p - origin) * scale; };
+  std::vector<MeshArrays> meshes;
+  for (const SceneObject& o : scene.objects) meshes.emplace_back(o.mesh);
+  std::vector<BlockBounds> bounds(planes_.size());
+  const auto fill = [&](std::size_t block) {
+    std::array<BandEdge, kLanes> edges;
+    const std::size_t first = block * kLanes, count = std::min(kLanes, edges_.size() - first);
+    for (std::size_t lane = 0; lane < count; ++lane) {
+      const SceneEdge& e = edges_[first + lane];
+      edges[lane] = meshes[e.object].edge(e.id, to_frame, 1.0);
+    }
+    LocalPlanes& planes = planes_[block];
+    planes.origin = FloatBox(edges[0].a, Vec3(0.0)).middle;
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      lane < count ? planes.set(lane, edges[lane]) : planes.planes.set_idle(lane);
+    bounds[block] = bounds_of_edges(edges.data(), edges.data() + count);
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planes_.size(), 256), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) fill(i);
+  });
+  tree_ = BoundsTree(std::move(bounds), 1.0);
+  for (const SceneObject& o : scene.objects)
+    points_.push_back(o.casts ? PointGroups(o.mesh.positions()) : PointGroups());
+}
+
+void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
+                           std::vector<SceneEdge>& out) const {
+  for (; edges != 0; edges &= edges - 1) {
+    const SceneEdge& e = edges_[block * kLanes + static_cast<std::size_t>(std::countr_zero(edges))];
+    if (idle.empty() || !idle[e.object]) out.push_back(e);
+  }
+}
+
+std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<const char> idle) const {
+  const FloatDisk disk(light, origin_, scale_);
+  std::vector<Siblings> parents;
+  tree_.gather(SidesTest(disk.box), parents);
+  constexpr std::size_t kRun = 256;
+  std::vector<std::vector<SceneEdge>> runs((parents.size() + kRun - 1) / kRun);
+  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t run) {
+    const std::size_t first = run * kRun, count = std::min(kRun, parents.size() - first);
+    for_each_block(std::span(parents).subspan(first, count), [&](std::size_t block) {
+      add_block(block, may_be_in_band(planes_[block], disk), idle, runs[run]);
+    });
+  });
+  std::vector<SceneEdge> out;
+  for (const auto& run : runs) out.insert(out.end(), run.begin(), run.end());
+  return out;
+}
+
+std::size_t SceneEdges::size_of_band(const DiskLight& light) const {
+  return tree_.count_at_most(SidesTest(FloatDisk(light, origin_, scale_).box)) * kLanes;
+}
+
+/// What a region's receivers have to look at. Which edges have their faces on both sides of a receiver is
+/// asked in float; whether they lie below its tangent plane is not, since receivers lie so little above their
+/// surfaces. Planes and ends of edges lie anywhere in memory: they are sent for before they are needed.
+void SceneEdges::mark_needed(const Region& region, const Scene& scene,
+                             std::vector<std::atomic<std::uint8_t>>& needed) const {
+  struct Question {
+    std::size_t block, receiver;
+    std::uint32_t lanes;
+  };
+  std::vector<Siblings> parents;
+  tree_.gather(region, parents);
+  std::vector<Question> asked, questions;
+  for (std::size_t r = 0; r < region.receivers().size(); ++r)
+    for (const Siblings& s : parents)
+      for_each_block(std::array{Siblings{s.parent, kept_by(region.receivers()[r], tree_.blocks(), s)}},
+                     [&](std::size_t block) {
+                       for (std::size_t line = 0; line < sizeof(LocalPlanes); line += kCacheLine)
+                         __builtin_prefetch(reinterpret_cast<const char*>(&planes_[block]) + line);
+                       asked.push_back({block, r, 0});
+                     });
+  for (Question& q : asked) {
+    q.lanes = may_be_silhouettes(planes_[q.block], region.receivers()[q.receiver].at());
+    if (q.lanes != 0) questions.push_back(q);
+  }
+  const auto for_each_edge = [&](const auto& visit) {
+    for (const Question& q : questions)
+      for (std::uint32_t lanes = q.lanes; lanes != 0; lanes &= lanes - 1) {
+        const SceneEdge& e = edges_[q.block * kLanes + static_cast<std::size_t>(std::countr_zero(lanes))];
+        visit(q, lanes & -lanes, scene.objects[e.object].mesh, e.id);
+      }
+  };
+  for_each_edge([](const Question&, std::uint32_t, const TriangleMesh& mesh, EdgeId id) {
+    __builtin_prefetch(&mesh.edges()[index(id)]);
+  });
+  for_each_edge([](const Question&, std::uint32_t, const TriangleMesh& mesh, EdgeId id) {
+    const Edge& e = mesh.edges()[index(id)];
+    __builtin_prefetch(&mesh.positions()[index(e.from)]);
+    __builtin_prefetch(&mesh.positions()[index(e.to)]);
+  });
+  for_each_edge([&](const Question& q, std::uint32_t lane, const TriangleMesh& mesh, EdgeId id) {
+    const Edge& e = mesh.edges()[index(id)];
+    const Region::Point& r = region.receivers()[q.receiver];
+    const auto is_below = [&](VertexId v) { return r.is_below((mesh.position(v) - origin_) * scale_); };
+    if (!is_below(e.from) || !is_below(e.to)) needed[q.block] |= static_cast<std::uint8_t>(lane);
+  });
+}
+
+std::vector<SceneEdge> SceneEdges::band_for(std::span<const Region> regions, const Scene& scene,
+                                            const DiskLight& light, std::span<const char> idle) const {
+  std::vector<std::atomic<std::uint8_t>> needed(planes_.size());
+  tbb::parallel_for(std::size_t{0}, regions.size(),
+                    [&](std::size_t i) { mark_needed(regions[i], scene, needed); });
+  const FloatDisk disk(light, origin_, scale_);
+  std::vector<SceneEdge> out;
+  for (std::size_t block = 0; block < needed.size(); ++block)
+    if (needed[block] != 0) add_block(block, needed[block] & may_be_in_band(planes_[block], disk), idle, out);
+  return out;
+}
+
+std::size_t SceneEdges::bytes() const {
+  std::size_t sum = edges_.size() * sizeof(SceneEdge) + planes_.size() * sizeof(LocalPlanes) + tree_.bytes();
+  for (const PointGroups& p : points_) sum += p.bytes();
+  return sum;
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,37 @@
+// Accurate rung: rays from a tile's receivers to points of the disk, in packets.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <span>
+#include <vector>
+
+#include "render/rays/ray_scene.h"
+#include "render/receivers/surface_buffer.h"
+#include "render/silhouette/collect/light_band.h"
+
+namespace penumbra::detail {
+
+struct RayTask {
+  std::uint32_t pixel;
+  glm::dvec2 aim;            ///< on the unit disk
+  bool step_back = false;    ///< start nearer to the surface, see below
+  bool free = false;         ///< the answer
+  std::size_t receiver = 0;  ///< of the tile, for whoever asks
+};
+
+/// The offset of receivers in scene units: that of ray origins (kRayOffset).
+double receiver_offset(const RayFrame& frame);
+
+/// Traces from the surface points, moved by the offset, to the disk.
+///
+/// Rays are float: where a caster's face is within a rounding of the receiver, either answer may come out.
+/// With `step_back` a ray starts 8/10 of the offset further back along its way, still above the surface it
+/// leaves and many roundings beyond the receiver, so that what is found free is free for the receiver too.
+void trace_tasks(const RayScene& rays, const SurfaceBuffer& surface, const UnitLight& light,
+                 std::span<RayTask> tasks);
+
+/// True where a face hides the light's center from the moved receiver, beyond doubt: the first face that a
+/// ray meets, by exact predicates.
+bool is_hidden(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, std::uint32_t pixel);
+
+}  // namespace penumbra::detail

@@ -1,0 +1,135 @@
+#include "render/silhouette/merge/merged_certificate.h"
+
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "render/silhouette/areas/projected_edges.h"
+
+namespace penumbra::detail {
+namespace {
+
+constexpr double kStraight = 1e-3;  // of the certificate's slack, a margin that it covers
+
+/// 1 for an edge's side of which only fronts are seen from a box of receivers, -1 only backs, 0 where that is
+/// not certain.
+PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePlane& plane,
+                              const MergedSides::Side& side) {
+  if (plane.tolerance < 0.0) return 0;
+  const double v = plane.value(middle);
+  const double off = plane.tolerance + side.reach(middle) + glm::dot(glm::abs(plane.normal), half) +
+                     (half == Vec3(0.0) ? 0.0 : side.tilt * glm::length(half));
+  return std::abs(v) > off ? (v > 0.0 ? 1 : -1) : 0;
+}
+
+/// A box beside the cone from a receiver to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or below its
+/// tangent plane; by a margin of `slack` at the disk.
+PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const Receiver& receiver,
+                                double slack) {
+  const Vec3 &x = receiver.x, &n = receiver.normal;
+  const double per_z = 1.0 / x.z, t = middle.z * per_z;
+  const double across = x.x * x.x + x.y * x.y, steep = (std::sqrt(across) + 1.0) * per_z;
+  const double reach =
+      1.0 - t + std::sqrt(half.x * half.x + half.y * half.y) + half.z * steep + slack * (1.0 + steep);
+  const double dx = middle.x - t * x.x, dy = middle.y - t * x.y;
+  if (reach < 0.0 || dx * dx + dy * dy > reach * reach) return true;
+  return glm::dot(n, middle - x) + glm::dot(glm::abs(n), half) < -slack;
+}
+
+/// For all receivers of a shaft what `is_certainly_none` asks first.
+bool is_none_for_all(const Band& band, std::size_t i, const Shaft& shaft) {
+  const BandEdge& e = band.edges[i];
+  const MergedSides& s = band.sides[i];
+  const int left = look_from(shaft.middle(), shaft.half(), e.left, s.left),
+            right = look_from(shaft.middle(), shaft.half(), e.right, s.right);
+  return (left != 0 && left == right) || shaft.misses(s.middle - s.half, s.middle + s.half);
+}
+
+}  // namespace
+
+bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver, double slack) {
+  const BandEdge& e = band.edges[i];
+  const MergedSides& sides = band.sides[i];
+  const Vec3& x = receiver.x;
+  if (is_outside(sides.middle, sides.half, receiver, slack)) return true;
+  const int left = look_from(x, Vec3(0.0), e.left, sides.left),
+            right = look_from(x, Vec3(0.0), e.right, sides.right);
+  if (left != 0 && left == right) return true;
+  const auto is_below = [&](const Vec3& p, double margin) {
+    return glm::dot(receiver.normal, p - x) < -margin;
+  };
+  for (const auto& [looks, side] : {std::pair{left, &sides.left}, std::pair{right, &sides.right}})
+    if (looks == 0 && !side->is_flat && !side->is_far(x) && !is_below(side->center, side->radius))
+      return false;
+  if (is_below(e.a, sides.margin + slack) && is_below(e.b, sides.margin + slack)) return true;
+  if (sides.margin <= slack * kStraight) return !see(e, x, slack).near;
+  if (std::min(e.a.z, e.b.z) - sides.margin > x.z) return true;
+  // What is seen of it lies within its margin: as if it were an edge of one face, and the disk wider.
+  const double below = x.z - std::max(e.a.z, e.b.z) - sides.margin;
+  if (!(below > 0.0)) return false;
+  const double steep = (glm::length(glm::dvec2(x)) + 1.0) / x.z;
+  const FacePlane unknown{Vec3(0.0), 0.0, std::numeric_limits<double>::infinity()};
+  return !see({e.a, e.b, unknown, unknown}, x, slack + sides.margin * (1.0 + steep) * x.z / below).near;
+}
+
+void Doubts::begin(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft) {
+  band_ = &band, list_ = &list, shaft_ = &shaft;
+  part_ = {};
+  gathered_ = narrowed_ = false;
+}
+
+void Doubts::look_at(std::span<const Receiver> part) {
+  part_ = part;
+  narrowed_ = false;
+}
+
+void Doubts::add(std::int32_t block, std::uint32_t edges, const Shaft& shaft, const FloatShaft& in_float,
+                 std::vector<EdgesOfBlock>& out) const {
+  const auto at = static_cast<std::size_t>(block);
+  std::uint32_t left = 0;
+  for (edges &= may_be_across(band_->lanes[at], in_float); edges != 0; edges &= edges - 1)
+    if (!is_none_for_all(*band_, kFloatLanes * at + static_cast<std::size_t>(std::countr_zero(edges)), shaft))
+      left |= edges & -edges;
+  if (left != 0) out.push_back({block, left});
+}
+
+void Doubts::gather() {
+  constexpr std::uint32_t kAll = (1u << kFloatLanes) - 1;
+  of_tile_.clear();
+  const FloatShaft in_float(*shaft_, band_->extent);
+  for_each_block(*list_, [&](std::size_t block) {
+    add(static_cast<std::int32_t>(block), kAll, *shaft_, in_float, of_tile_);
+  });
+  gathered_ = true;
+}
+
+void Doubts::narrow() {
+  of_part_.clear();
+  narrowed_ = true;
+  if (of_tile_.empty()) return;
+  Shaft shaft(part_, band_->extent);
+  shaft.tighten(part_);
+  const FloatShaft in_float(shaft, band_->extent);
+  for (const EdgesOfBlock& e : of_tile_) add(e.block, e.edges, shaft, in_float, of_part_);
+}
+
+bool Doubts::are_none(const Receiver& receiver, double slack) {
+  if (!gathered_) gather();
+  if (!narrowed_) narrow();
+  if (of_part_.empty()) return true;
+  const FloatEye eye(receiver, band_->extent);
+  for (const EdgesOfBlock& e : of_part_) {
+    const auto at = static_cast<std::size_t>(e.block);
+    for (std::uint32_t edges = e.edges & may_be_across(band_->lanes[at], eye); edges != 0;
+         edges &= edges - 1) {
+      const std::size_t i = kFloatLanes * at + static_cast<std::size_t>(std::countr_zero(edges));
+      if (!is_certainly_none(*band_, i, receiver, slack)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace penumbra::detail

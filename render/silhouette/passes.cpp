@@ -1,0 +1,59 @@
+#include "render/silhouette/passes.h"
+
+namespace penumbra::detail {
+namespace {
+
+// Of the edges that may be in the band, at most, where merged ones are looked at.
+constexpr double kMostMerged = 0.125;
+constexpr double kMostMergedFlat = 0.5;  // the same for what is flat: never wrong, and never tried in vain
+
+constexpr std::size_t kInRegion = 4;  // receivers
+
+}  // namespace
+
+/// Levels that leave most of the band's edges are no help.
+Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double moved,
+                   std::size_t pixels) {
+  Passes out;
+  if (!merged || merged->levels().empty() || !lit.all_in_front) return out;
+  const auto size = static_cast<double>(edges.size_of_band(lit.scene.light));
+  for (auto at = merged->levels().rbegin(); at != merged->levels().rend(); ++at) {  // coarsest first
+    const MergedLevel& level = *at;
+    const double in_radii = level.moved * lit.light.per_radius();
+    if (in_radii > moved) continue;
+    const std::size_t blocks = merged->blocks_of(level, lit.scene.light, lit.idle).size();
+    const double worth = level.moved > 0.0 ? kMostMerged : kMostMergedFlat;
+    if (static_cast<double>(blocks * MergedBlock::kEdges) > worth * size) break;
+    out.levels.push_back(&level);
+    out.moved.push_back(in_radii);
+  }
+  if (!out.levels.empty()) out.of.resize(pixels);
+  return out;
+}
+
+std::vector<Region> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
+                               const ReceiverSource& source, const UnitLight& light, const RayFrame& frame) {
+  std::vector<std::vector<Region>> of_tiles(some.size());
+  tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+    std::vector<Receiver> receivers;
+    std::vector<std::uint32_t> undecided;
+    source.collect(tiles.column(some[i]), tiles.row(some[i]), receivers, undecided);
+    std::erase_if(receivers, [&](const Receiver& r) { return passes.of[r.pixel] != passes.now; });
+    const auto add = [&](const auto& self, std::span<Receiver> part) -> void {
+      if (part.size() > kInRegion) {
+        const std::size_t middle = halve(part);
+        self(self, part.first(middle));
+        return self(self, part.subspan(middle));
+      }
+      Shaft shaft(part, 1.0);
+      shaft.tighten(part);
+      of_tiles[i].push_back(shaft.region(part, light, frame));
+    };
+    if (!receivers.empty()) add(add, receivers);
+  });
+  std::vector<Region> out;
+  for (const auto& regions : of_tiles) out.insert(out.end(), regions.begin(), regions.end());
+  return out;
+}
+
+}  // namespace penumbra::detail

@@ -1,0 +1,106 @@
+// Accurate rung, before step 2: in which order receivers are served, and by which edges.
+//
+// Casters may have levels of merged edges (merged_edges.h). All tiles begin with the coarsest level that may
+// do; receivers for which its edges are moved too far are left to a later pass, the last of which has the
+// edges of all faces. A pass makes a band and goes over the tiles that wait for it.
+#pragma once
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "penumbra/mesh/error.h"
+#include "penumbra/mesh/progress.h"
+#include "render/rays/ray_scene_impl.h"
+#include "render/silhouette/tile_receivers.h"
+
+namespace penumbra::detail {
+
+/// A quarter of a tile: narrowing lists for fewer costs what it saves.
+inline constexpr std::size_t kFewReceivers = 16;
+
+/// Which edges each pixel's receiver looks at: those of merged faces first, coarsest levels first, and those
+/// of all faces last.
+struct Passes {
+  std::vector<const MergedLevel*> levels;
+  std::vector<double> moved;     ///< of the levels; light radii
+  std::vector<std::uint8_t> of;  ///< pixels that are not done: their pass
+  int now = 0;
+
+  int last() const { return static_cast<int>(levels.size()); }
+  /// The next one whose edges are hardly anywhere moved farther than that.
+  int next(double allowed) const {
+    constexpr double kSpread = 1.5;
+    int pass = now + 1;
+    while (pass < last() && moved[pass] * kSpread > allowed) ++pass;
+    return pass;
+  }
+};
+
+/// By the merged edges (or none) and how far they may be moved (light radii); `pixels` of the image. None but
+/// the last where nothing is to be merged or a caster crosses the light's plane.
+Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double moved,
+                   std::size_t pixels);
+
+/// The tiles of an image, and for which passes they wait.
+class Tiles {
+ public:
+  Tiles(const SurfaceBuffer& surface, const Progress& progress)
+      : columns_((surface.width + kTile - 1) / kTile),
+        waiting_(static_cast<std::size_t>(columns_ * ((surface.height + kTile - 1) / kTile)), 1u),
+        progress_(progress) {}
+
+  /// Those that wait for a pass.
+  std::vector<int> waiting_for(int pass) const {
+    std::vector<int> out;
+    for (std::size_t i = 0; i < waiting_.size(); ++i)
+      if (waiting_[i] >> pass & 1) out.push_back(static_cast<int>(i));
+    return out;
+  }
+  /// So few that it is cheaper to look for the edges that matter to them than for all.
+  bool are_few(const std::vector<int>& tiles) const { return tiles.size() <= waiting_.size() / kFewTiles; }
+  int column(int tile) const { return tile % columns_; }
+  int row(int tile) const { return tile / columns_; }
+
+  /// Runs `body(column, row, workspace)` for some tiles of a pass, reporting progress; it returns for which
+  /// passes they wait next. Throws Cancelled.
+  template <class Spaces, class Body>
+  void run(int pass, const std::vector<int>& tiles, const RayScene& rays, Spaces& spaces, const Body& body) {
+    std::atomic<bool> stop{false};
+    std::mutex reporting;
+    const auto finish = [&](std::uint32_t& waiting, std::uint32_t next) {
+      waiting = (waiting & ~(1u << pass)) | next;
+      if (waiting != 0) return;
+      const std::size_t finished = ++done_;
+      if (!progress_ || !reporting.try_lock()) return;
+      if (!progress_(static_cast<double>(finished) / static_cast<double>(waiting_.size()))) stop = true;
+      reporting.unlock();
+    };
+    rays.impl().arena.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end() && !stop; ++i)
+          finish(waiting_[static_cast<std::size_t>(tiles[i])],
+                 body(column(tiles[i]), row(tiles[i]), spaces.local()));
+      });
+    });
+    if (stop) throw Cancelled();
+  }
+
+ private:
+  static constexpr std::size_t kFewTiles = 32;  // one in so many
+  int columns_;
+  std::vector<std::uint32_t> waiting_;  ///< passes as bits
+  const Progress& progress_;
+  std::atomic<std::size_t> done_{0};
+};
+
+/// Of the receivers of some tiles that wait for this pass, by parts that lie close together.
+std::vector<Region> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
+                               const ReceiverSource& source, const UnitLight& light, const RayFrame& frame);
+
+}  // namespace penumbra::detail

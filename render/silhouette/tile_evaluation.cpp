@@ -1,0 +1,285 @@
+#include "render/silhouette/tile_evaluation.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+
+namespace penumbra::detail {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+constexpr std::size_t kShortList = 24;        // edges; shorter lists are not narrowed
+constexpr std::size_t kMostToCertify = 8192;  // edges; with more, rays cost less than to look for what is
+                                              // hardly ever found there
+constexpr std::size_t kManyBlocks = 64;  // lists of more may be narrowed down to receivers block by block,
+constexpr double kMostKept = 0.4;        // if one receiver keeps at most that share
+constexpr double kSliver = 0.5;          // of the disk, for how far silhouettes are moved
+constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
+
+/// In place, member by member: a task made elsewhere and copied is read in wider pieces than it was written
+/// in, for which the processor waits; with what else was copied so, a twentieth of a simple scene's time.
+void add_task(std::vector<RayTask>& tasks, std::uint32_t pixel, const glm::dvec2& aim, bool step_back,
+              std::size_t receiver) {
+  RayTask& task = tasks.emplace_back();
+  task.pixel = pixel;
+  task.aim.x = aim.x;
+  task.aim.y = aim.y;
+  task.step_back = step_back;
+  task.receiver = receiver;
+}
+
+}  // namespace
+
+std::uint32_t Evaluation::tile(int column, int row, Workspace& w) const {
+  w.undecided.clear();
+  const std::size_t behind = source_.collect(column, row, w.tile, w.undecided);
+  if (passes_.now > 0) {
+    std::erase_if(w.tile, [&](const Receiver& r) { return passes_.of[r.pixel] != passes_.now; });
+  } else {
+    w.counts.receivers += w.tile.size();
+    w.counts.behind_light += behind;
+    auto& unknown = options_.integrate ? w.fallback : w.open;
+    unknown.insert(unknown.end(), w.undecided.begin(), w.undecided.end());
+  }
+  w.later = 0;
+  if (!w.tile.empty()) part(w.tile, w);
+  return w.later;
+}
+
+/// Receivers that lie close together.
+void Evaluation::part(std::span<Receiver> receivers, Workspace& w) const {
+  Shaft shaft(receivers, band_.extent);
+  w.blocks[0].clear();
+  const bool reached = is_reached(shaft);
+  if (reached && !tree_.misses(shaft)) {
+    if (band_.edges.size() > kShortList) shaft.tighten(receivers);  // costs more than few edges
+    tree_.gather(shaft, w.blocks[0]);
+    const Moves m = moves(shaft, w.blocks[0]);
+    if (m.most > options_.moved) return leave(receivers, passes_.next(m.allowed), w);
+    w.sliver = kSliver * m.most;
+  }
+  ++w.counts.tiles;
+  w.counts.merged_receivers += band_.is_merged() ? receivers.size() : 0;
+  w.receivers.assign(receivers.begin(), receivers.end());
+  if (reached) {
+    look_around(shaft, w);
+  } else {
+    ++w.counts.empty_tiles;
+    light_up(w);
+  }
+}
+
+/// To a later pass. Where no merged edges will do, halves are tried: a tile may show two surfaces, one of
+/// which is near to what casts.
+void Evaluation::leave(std::span<Receiver> receivers, int pass, Workspace& w) const {
+  if (pass == passes_.last() && receivers.size() > kFewReceivers) {
+    const std::size_t middle = halve(receivers);
+    part(receivers.first(middle), w);
+    return part(receivers.subspan(middle), w);
+  }
+  for (const Receiver& r : receivers) passes_.of[r.pixel] = static_cast<std::uint8_t>(pass);
+  w.later |= 1u << pass;
+}
+
+/// What lies at p is seen by x magnified by x.z/(x.z - p.z) and, at a slant, by |x - p|/(x.z - p.z) once
+/// more; p in a block's box, x in that of the receivers.
+Evaluation::Moves Evaluation::moves(const Shaft& shaft, const std::vector<Siblings>& list) const {
+  const Vec3 middle = shaft.middle();
+  const double lowest = middle.z - shaft.half().z, highest = middle.z + shaft.half().z;
+  Moves out;
+  for_each_block(list, [&](std::size_t block) {
+    if (block >= band_.moved.size() || !(band_.moved[block] > 0.0f)) return;
+    const BlockBounds& b = band_.bounds[block];
+    const double below = std::max(0.0, lowest - b.high.z);
+    const double away =
+        glm::distance(middle, 0.5 * (b.low + b.high)) + glm::length(shaft.half() + 0.5 * (b.high - b.low));
+    const double magnified = away * highest / (below * below);
+    out.most = std::max(out.most, band_.moved[block] * magnified);
+    out.allowed = std::min(out.allowed, options_.moved / magnified);
+  });
+  return out;
+}
+
+void Evaluation::look_around(const Shaft& shaft, Workspace& w) const {
+  if (band_.is_merged()) w.doubts.begin(band_, w.blocks[0], shaft);
+  w.fused.resize(w.receivers.size());
+  w.certain.resize(w.receivers.size());
+  w.tasks.clear();
+  if (are_blocks_better(w)) {
+    w.counts.listed_edges += count_blocks(w.blocks[0]) * BandTree::kFanOut;
+    divide_blocks(0, w.receivers.size(), 0, w);
+  } else {
+    blocks_.gather(w.blocks[0], shaft, w.edges);
+    w.counts.listed_edges += w.edges.size();
+    w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
+    w.list.assign(band_, w.edges, shaft.middle());
+    divide(0, w.receivers.size(), w);
+  }
+  decide(w);
+}
+
+/// A long list stays in blocks where one receiver drops most of them; on rough surfaces it drops few, and a
+/// list of single edges is shorter.
+bool Evaluation::are_blocks_better(Workspace& w) const {
+  const std::size_t blocks = count_blocks(w.blocks[0]);
+  if (blocks <= kManyBlocks) return false;
+  tree_.narrow(w.blocks[0], std::span(w.receivers).subspan(w.receivers.size() / 2, 1), w.blocks[1]);
+  return static_cast<double>(count_blocks(w.blocks[1])) <= kMostKept * static_cast<double>(blocks);
+}
+
+/// The box of some caster is between the shaft's receivers and the light.
+bool Evaluation::is_reached(const Shaft& shaft) const {
+  return std::any_of(band_.casters.begin(), band_.casters.end(),
+                     [&](const Bounds& box) { return !shaft.misses(box.low, box.high); });
+}
+
+/// Receivers first to last, one by one: with the tile's list where it is short, else in parts that lie apart,
+/// each with what is left of the list.
+void Evaluation::divide(std::size_t first, std::size_t last, Workspace& w) const {
+  if (w.list.size() <= kShortList) return evaluate(first, last, w.list, w);
+  const auto part = std::span(w.receivers).subspan(first, last - first);
+  if (part.size() > kFewReceivers) {
+    const std::size_t middle = first + halve(part);
+    divide(first, middle, w);
+    return divide(middle, last, w);
+  }
+  Shaft shaft(part, band_.extent);
+  shaft.tighten(part);
+  narrow(w.list, shaft, w.edges);
+  w.part_list.assign(w.list, w.edges);
+  evaluate(first, last, w.part_list, w);
+}
+
+/// The same with lists of blocks: halved until parts are small enough to narrow the list for, three times
+/// over.
+void Evaluation::divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const {
+  const std::vector<Siblings>& list = w.blocks[level];
+  if (level + 1 == kPartSizes.size()) {
+    for (std::size_t i = first; i < last; ++i) evaluate_blocks(i, list, w);
+    return;
+  }
+  const auto part = std::span(w.receivers).subspan(first, last - first);
+  if (part.size() > kPartSizes[level + 1]) {
+    const std::size_t middle = first + halve(part);
+    divide_blocks(first, middle, level, w);
+    return divide_blocks(middle, last, level, w);
+  }
+  if (level == 0) w.doubts.look_at(part);
+  tree_.narrow(list, part, w.blocks[level + 1]);
+  divide_blocks(first, last, level + 1, w);
+}
+
+void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) const {
+  cut_segments(w.sight.segments, w.sight.inside, part, w.cut);
+  if (!w.cut.closed) {
+    w.fallback.push_back(w.receivers[i].pixel);
+    return;
+  }
+  w.fuser.fuse(w.cut, part, options_.rows, w.sliver, w.fused[i]);
+  add_task(w.tasks, w.receivers[i].pixel, w.fused[i].aims[0], false, i);
+  w.counts.segments += w.cut.segments.size();
+  ++w.counts.integrated;
+  w.counts.slabs += w.fused[i].way == Fusion::kSlabs ? 1 : 0;
+  w.counts.fused += w.fused[i].way == Fusion::kRows ? 1 : 0;
+  w.counts.overlapping += w.fused[i].levels > 2 ? 1 : 0;
+}
+
+void Evaluation::evaluate(std::size_t first, std::size_t last, const EdgeList& list, Workspace& w) const {
+  for (std::size_t begin = first; begin < last; begin += kFewReceivers) {
+    const std::size_t end = std::min(begin + kFewReceivers, last);
+    w.doubts.look_at(std::span(w.receivers).subspan(begin, end - begin));
+    for (std::size_t i = begin; i < end; ++i) evaluate(i, list, w);
+  }
+}
+
+void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
+  const Receiver& r = w.receivers[i];
+  if (!options_.integrate && list.size() > kMostToCertify) return w.open.push_back(r.pixel);
+  look(list, r.x, r.horizon, slack_, w.sight);
+  w.counts.projected_edges += list.size();
+  judge(i, w);
+}
+
+void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& list, Workspace& w) const {
+  const Receiver& r = w.receivers[i];
+  const std::size_t most = options_.integrate ? blocks_.count() : kMostToCertify / BandTree::kFanOut;
+  if (!blocks_.sift(tree_, list, r, most, w.sight.sifted)) return w.open.push_back(r.pixel);
+  look(band_, w.sight.sifted, r.x, r.horizon, slack_, w.sight);
+  w.counts.projected_edges += BandTree::kFanOut * w.sight.sifted.looked_into;
+  judge(i, w);
+}
+
+/// Nothing is across the disk for certain. Below a horizon that cuts the disk edges may have been left out:
+/// nothing is certified there. Of merged faces some may look the other way than their patch does.
+bool Evaluation::is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const {
+  if (!w.sight.certain || part.is_cut()) return false;
+  return !band_.is_merged() || w.doubts.are_none(w.receivers[i], slack_);
+}
+
+/// What a receiver sees, integrated; or the certificate.
+void Evaluation::judge(std::size_t i, Workspace& w) const {
+  const Receiver& r = w.receivers[i];
+  const DiskPart part(r.horizon);
+  w.certain[i] = is_beyond_doubt(i, part, w);
+  if (w.sight.segments.empty()) {
+    const glm::dvec2 middle = part.middle();
+    Fused& fused = w.fused[i];
+    fused.area = part.area();
+    fused.levels = 1;
+    fused.aims[0] = fused.aims[1] = middle;
+    fused.way = Fusion::kChain;
+    add_task(w.tasks, r.pixel, middle, w.certain[i] != 0, i);
+  } else if (options_.integrate) {
+    integrate(i, part, w);
+  } else {
+    w.open.push_back(w.receivers[i].pixel);
+  }
+}
+
+/// No caster is between the tile and the light.
+void Evaluation::light_up(Workspace& w) const {
+  for (const Receiver& r : w.receivers) {
+    out_.visibility[r.pixel] = static_cast<float>(half_plane_area(r.horizon.delta));
+    out_.region[r.pixel] = 0;
+  }
+  w.counts.certified_lit += w.receivers.size();
+}
+
+/// Where nothing crosses the disk the answer holds for all of it. It is certified if it is beyond doubt, and
+/// left to a plain ray if not.
+void Evaluation::certify(const RayTask& task, Workspace& w) const {
+  if (!task.free && !is_hidden(scene_, rays_, surface_, task.pixel)) {
+    add_task(w.second_tasks, task.pixel, task.aim, false, task.receiver);
+    return;
+  }
+  out_.visibility[task.pixel] = task.free ? 1.0f : 0.0f;
+  out_.region[task.pixel] = task.free ? 0 : 2;
+  ++(task.free ? w.counts.certified_lit : w.counts.certified_umbra);
+}
+
+/// The rays of a tile, and what they make of its areas.
+void Evaluation::decide(Workspace& w) const {
+  const auto settle = [&](const RayTask& task) {
+    out_.visibility[task.pixel] = task.free ? static_cast<float>(w.fused[task.receiver].area / kPi) : 0.0f;
+  };
+  w.second_tasks.clear();
+  trace_tasks(rays_, surface_, light_, w.tasks);
+  for (const RayTask& task : w.tasks) {
+    const Fused& f = w.fused[task.receiver];
+    if (w.certain[task.receiver])
+      certify(task, w);
+    else if (task.free || f.aims[1] == f.aims[0])
+      settle(task);
+    else
+      add_task(w.second_tasks, task.pixel, f.aims[1], false, task.receiver);
+  }
+  trace_tasks(rays_, surface_, light_, w.second_tasks);
+  for (const RayTask& task : w.second_tasks) settle(task);
+  w.counts.rays += w.tasks.size();
+  w.counts.second_rays += w.second_tasks.size();
+}
+
+}  // namespace penumbra::detail

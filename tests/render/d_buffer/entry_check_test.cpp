@@ -1,0 +1,222 @@
+// Entries that contradict each other: what is asked, and what the answers do for the picture.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "render/d_buffer/center_rays.h"
+#include "render/d_buffer/d_buffer.h"
+#include "render/d_buffer/visibility_steps.h"
+#include "render/light/disk_area.h"
+#include "tests/render/render_support.h"
+
+namespace penumbra {
+namespace {
+
+using testing::at_pixels;
+using testing::Pixels;
+using testing::Values;
+using testing::View;
+
+/// Receivers under a plate that hides the disk's half x < 0 from the middle one, all of it from the left one
+/// and nothing from the right one.
+struct HalfPlate {
+  Scene scene = testing::scene_in_light_frame(1.0, {testing::rectangle(-20, 0, -20, 20, 2)});
+  RayScene rays{scene, 0};
+  SurfaceBuffer surface =
+      testing::receivers({{-8, 0, 4}, {-0.2, 0, 4}, {0.2, 0, 4}, {8, 0, 4}}, Vec3(0, 0, -1), 4);
+  CenterRays center{surface, rays};
+};
+
+TEST(EntryCheck, SixteenRaysFindAHalfPlane) {
+  const HalfPlate under;
+  const std::uint32_t pixels[] = {3, 1, 0, 2};
+  const Values seen = under.center.sampled_visibility(under.scene.light, pixels);
+  EXPECT_EQ(seen[0], 1.0f);
+  EXPECT_EQ(seen[2], 0.0f);
+  // The plate at half the height hides x < -δ of the disk, δ = -0.2 and 0.2.
+  EXPECT_NEAR(seen[1], half_plane_area(-0.2), 0.145);
+  EXPECT_NEAR(seen[3], half_plane_area(0.2), 0.145);
+}
+
+/// An image of one plane, seen from above.
+struct Plane {
+  Plane(int columns, int rows) : width(columns), height(rows) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) positions.emplace_back(x, y, 0.0f, 1.0f);
+    normals.assign(positions.size(), glm::vec4(0.0f, 0.0f, 1.0f, 0.0f));
+    open.assign(positions.size(), 1.0f);
+  }
+  detail::ImageSurface image() const { return {width, height, positions, normals, open}; }
+  int width, height;
+  std::vector<glm::vec4> positions, normals;
+  Values open;
+};
+
+/// Answers with what is true and remembers who was asked.
+struct Oracle {
+  Values truth;
+  std::vector<std::uint32_t> asked{};
+  detail::AskVisibility ask() {
+    return [this](std::span<const std::uint32_t> pixels) {
+      asked.insert(asked.end(), pixels.begin(), pixels.end());
+      Values out;
+      for (const std::uint32_t i : pixels) out.push_back(truth[i]);
+      return out;
+    };
+  }
+};
+
+TEST(EntryCheck, AHoleInAPenumbraIsFilledFromItsBorder) {
+  const Plane plane(24, 20);
+  Oracle oracle{Values(24 * 20)};
+  for (std::size_t i = 0; i < oracle.truth.size(); ++i) oracle.truth[i] = static_cast<float>(i % 24) / 24.0f;
+  Values v = oracle.truth;
+  for (std::size_t y = 5; y < 15; ++y)
+    for (std::size_t x = 6; x < 18; ++x) v[y * 24 + x] = 0.0f;
+  const std::size_t asked = detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v);
+  for (std::size_t i = 0; i < v.size(); ++i)
+    EXPECT_NEAR(v[i], oracle.truth[i], detail::kVisibilityStep) << "pixel " << i;
+  EXPECT_EQ(asked, oracle.asked.size());
+  std::sort(oracle.asked.begin(), oracle.asked.end());
+  EXPECT_EQ(std::unique(oracle.asked.begin(), oracle.asked.end()), oracle.asked.end()) << "asked twice";
+  EXPECT_LE(asked, 14u * 12u);
+}
+
+/// Asks an oracle that agrees with the entries: nothing but sentinels, which change nothing.
+void expect_no_step(const Plane& plane, const Values& entries) {
+  Oracle oracle{entries};
+  Values v = entries;
+  detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v);
+  for (const std::uint32_t i : oracle.asked)
+    EXPECT_TRUE(i % 24 % 8 == 4 && i / 24 % 8 == 4) << "pixel " << i << " is no sentinel";
+  EXPECT_EQ(v, entries);
+}
+
+TEST(EntryCheck, SlopesAndEdgesOfSurfacesAreNoSteps) {
+  Plane plane(24, 20);
+  Values slope(24 * 20), edge(24 * 20);
+  for (std::size_t i = 0; i < slope.size(); ++i) {
+    slope[i] = std::clamp(0.15f * static_cast<float>(i % 24) - 1.0f, 0.0f, 1.0f);
+    edge[i] = i % 24 < 12 ? 0.0f : 1.0f;
+  }
+  expect_no_step(plane, slope);
+  for (std::size_t i = 0; i < edge.size(); ++i)
+    if (edge[i] > 0.0f) plane.positions[i].z = 7.0f;  // another surface
+  expect_no_step(plane, edge);
+}
+
+TEST(EntryCheck, AStepOfTheHorizonAloneIsNone) {
+  Plane plane(24, 20);
+  for (std::size_t i = 0; i < plane.open.size(); ++i) plane.open[i] = i % 24 < 12 ? 0.4f : 1.0f;
+  expect_no_step(plane, plane.open);
+}
+
+TEST(EntryCheck, AnswersThatAgreeChangeNothing) {
+  const Plane plane(24, 20);
+  Values edge(24 * 20);
+  for (std::size_t i = 0; i < edge.size(); ++i) edge[i] = i % 24 < 12 ? 0.0f : 0.9f;
+  Oracle oracle{edge};
+  for (float& value : oracle.truth) value += 0.01f;
+  Values v = edge;
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v), 2u * 20u + 4u)
+      << "both sides of the step, and sentinels";
+  EXPECT_EQ(v, edge);
+}
+
+TEST(EntryCheck, EntriesThatAreWrongAllOverAreFound) {
+  const Plane plane(24, 20);
+  for (const float entry : {0.0f, 0.5f, 1.0f}) {
+    Oracle oracle{Values(24 * 20, 0.75f)};
+    Values v(24 * 20, entry);
+    EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v), v.size());
+    for (std::size_t y = 1; y < 19; ++y)
+      for (std::size_t x = 1; x < 23; ++x) EXPECT_FLOAT_EQ(v[y * 24 + x], 0.75f) << "from " << entry;
+  }
+}
+
+TEST(EntryCheck, ASentinelThatErrsByItsNoiseChangesNothing) {
+  const Plane plane(24, 20);
+  Oracle oracle{Values(24 * 20, 0.5f)};
+  oracle.truth[12 * 24 + 12] = 0.6f;
+  Values v(24 * 20, 0.5f);
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v), 6u + 4u)
+      << "all, and the neighbours of one";
+  for (std::size_t i = 0; i < v.size(); ++i) EXPECT_NEAR(v[i], 0.5f, 0.025f) << "pixel " << i;
+}
+
+/// What each of three by three pixels errs by, 0 in sum.
+float noise_of(std::size_t x, std::size_t y) {
+  constexpr float kNoise[9] = {0.06f, -0.05f, 0.02f, -0.07f, 0.03f, 0.05f, -0.03f, -0.05f, 0.04f};
+  return kNoise[y % 3 * 3 + x % 3];
+}
+
+/// A slope under a plate's edge, entries that deny it, and noisy answers: how far the picture is off then,
+/// away from its border and on either side of the edge's ends.
+float worst_after_noisy_answers(const Plane& plane, const Values& truth) {
+  Oracle oracle{truth};
+  const auto width = static_cast<std::size_t>(plane.width);
+  for (std::size_t i = 0; i < truth.size(); ++i) oracle.truth[i] += noise_of(i % width, i / width);
+  Values v(truth.size());
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] = i % width < width / 2 ? 0.2f : 0.8f;
+  detail::VisibilitySteps().ask(plane.image(), {}, {}, oracle.ask(), v);
+  float worst = 0.0f;
+  for (std::size_t y = 2; y + 2 < static_cast<std::size_t>(plane.height); ++y)
+    for (std::size_t x = width / 2 - 4; x < width / 2 + 4; ++x)
+      worst = std::max(worst, std::abs(v[y * width + x] - truth[y * width + x]));
+  return worst;
+}
+
+TEST(EntryCheck, NoiseOfAnswersIsSharedOnFlatGroundOnly) {
+  Plane plane(24, 20);
+  Values slope(24 * 20);
+  for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = 0.02f * static_cast<float>(i % 24) + 0.27f;
+  EXPECT_LT(worst_after_noisy_answers(plane, slope), 0.01f);
+  for (std::size_t i = 0; i < plane.normals.size(); ++i) {
+    const float turn = 0.1f * static_cast<float>(i % 24) + 0.1f * static_cast<float>(i / 24 % 2);
+    plane.normals[i] = glm::vec4(0.0f, std::sin(turn), std::cos(turn), 0.0f);
+  }
+  EXPECT_GT(worst_after_noisy_answers(plane, slope), 0.05f);
+}
+
+TEST(EntryCheck, WhatNoNeighbourCanContradictIsAskedAnyway) {
+  Plane plane(24, 20);
+  const auto turn = [&](std::uint32_t pixel) { plane.normals[pixel] = glm::vec4(1.0f, 0.0f, 0.0f, 0.0f); };
+  EXPECT_TRUE(detail::lonely_pixels(plane.image()).empty());
+  const std::uint32_t leaf = 5 * 24 + 7, twig = 12 * 24 + 3;
+  turn(leaf);
+  for (std::uint32_t k = 0; k < 3; ++k) {  // one above the other: the middle one has two neighbours
+    turn(twig + k * 24);
+    plane.positions[twig + k * 24].x = 3.0f;
+  }
+  plane.positions[0].w = 0.0f;
+  const std::vector<std::uint32_t> lonely{leaf, twig, twig + 2 * 24};
+  EXPECT_EQ(detail::lonely_pixels(plane.image()), lonely);
+  Oracle oracle{Values(24 * 20, 0.3f)};
+  Values v(24 * 20, 0.3f);
+  v[leaf] = 1.0f;
+  EXPECT_EQ(detail::VisibilitySteps().ask(plane.image(), lonely, {}, oracle.ask(), v), lonely.size() + 6u)
+      << "these, and sentinels";
+  EXPECT_EQ(v, oracle.truth);
+}
+
+TEST(EntryCheck, LessensTheError) {
+  const auto context = gl::make_context(gl::Backend::kOsMesa);
+  for (const char* name : {"bunny-small", "knot1-medium", "armadillo-medium", "foliage-medium"}) {
+    const Scene scene = testing::data_scene(name);
+    const View view(scene, 240, 180);
+    DBuffer buffer(*context, scene, view.rays);
+    buffer.set_surface(view.surface);
+    const Pixels near = view.near_penumbra(testing::every_pixel(view.surface));
+    const Values one = view.trace(near, 256, 21), two = view.trace(near, 256, 22);
+    const auto rmse = [&](EntryCheck check) {
+      const Values v = buffer.render(scene.light, {.check = check}).visibility;
+      return testing::penumbra_error(at_pixels(v, near), one, two).rmse;
+    };
+    const double with = rmse(EntryCheck::kRays), without = rmse(EntryCheck::kNone);
+    std::printf("%-18s RMSE %.4f, without: %.4f\n", name, with, without);
+    EXPECT_LT(with, 0.7 * without) << name;
+  }
+}
+
+}  // namespace
+}  // namespace penumbra

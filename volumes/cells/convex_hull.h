@@ -1,0 +1,17 @@
+// Convex hull of points in space, combinatorially exact.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "penumbra/mesh/types.h"
+
+namespace penumbra::detail {
+
+/// Triangles over the indices of `points`, oriented outward; closed; together a triangulated sphere. Every
+/// point is inside or on the hull exactly. Points on a facet or an edge of the hull of the others may or may
+/// not be vertices; of equal points at most one is. Empty where fewer than four points are affinely
+/// independent. Deterministic. Expected cost O(n log n).
+std::vector<IndexedTriangle> convex_hull(std::span<const Vec3> points);
+
+}  // namespace penumbra::detail

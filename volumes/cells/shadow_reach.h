@@ -1,0 +1,29 @@
+// How far shadows are drawn, and in which frame: shared by sheets and volumes.
+#pragma once
+
+#include <glm/geometric.hpp>
+
+#include "penumbra/mesh/triangle_mesh.h"
+#include "penumbra/volumes/disk_light.h"
+#include "penumbra/volumes/extrude.h"
+
+namespace penumbra::detail {
+
+/// The light's frame and the sphere that the far end of every piece must lie beyond.
+struct ShadowReach {
+  Vec3 center;       ///< of the light
+  LightFrame frame;  ///< w points to the front
+  double radius;     ///< of the light
+  Vec3 bound_center;
+  double bound_radius;
+  double far_depth;  ///< a plane parallel to the light at this depth is beyond the bound (perhaps negative)
+
+  double depth(const Vec3& p) const { return glm::dot(frame.w, p - center); }
+  /// No point of the bound is farther than this from a point of the disk.
+  double distance() const;
+};
+
+/// Throws UsageError for options outside their domain.
+ShadowReach shadow_reach(const TriangleMesh& mesh, const DiskLight& light, const ExtrudeOptions& options);
+
+}  // namespace penumbra::detail

@@ -1,0 +1,48 @@
+// The tiers of predicates.h one by one, for tests and for tallies. Filter and interval return nothing where
+// they cannot decide; whatever they return agrees with the exact tier.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "penumbra/volumes/predicates/predicates.h"
+
+namespace penumbra::detail {
+
+/// Plain double with a derived error bound (detail/filtered.h).
+namespace filter {
+std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light);
+std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+std::optional<Sign> side_of_light_plane(const Vec3& p, const DiskLight& light);
+std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
+std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                                           const DiskLight& light);
+std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+}  // namespace filter
+
+/// Interval arithmetic on doubles (CGAL::Interval_nt).
+namespace interval {
+std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light);
+std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+std::optional<Sign> side_of_light_plane(const Vec3& p, const DiskLight& light);
+std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
+std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                                           const DiskLight& light);
+std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+}  // namespace interval
+
+/// Exact arithmetic on the doubles as given.
+namespace exact {
+FaceClass classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light);
+Sign orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+Sign side_of_light_plane(const Vec3& p, const DiskLight& light);
+Sign line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
+std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
+                                            const DiskLight& light);
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+}  // namespace exact
+
+/// Whether a, b and c lie on one line (two equal points do), through all tiers.
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+}  // namespace penumbra::detail
