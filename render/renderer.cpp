@@ -53,7 +53,7 @@ nlohmann::json to_json(const std::vector<StageTime>& stages) {
 
 nlohmann::json to_json(const SilhouetteCounts& c) {
   return {{"faces", c.faces},
-          {"idle_casters", c.idle_casters},
+          {"casters_that_cannot_occlude", c.casters_that_cannot_occlude},
           {"mesh_edges", c.mesh_edges},
           {"band_edges", c.band_edges},
           {"cut_edges", c.cut_edges},
@@ -69,7 +69,7 @@ nlohmann::json to_json(const SilhouetteCounts& c) {
           {"segments", c.segments},
           {"integrated", c.integrated},
           {"slabs", c.slabs},
-          {"fused", c.fused},
+          {"row_sweeps", c.row_sweeps},
           {"overlapping", c.overlapping},
           {"rays", c.rays},
           {"second_rays", c.second_rays},
@@ -209,7 +209,7 @@ Seen Renderer::State::by_silhouette(const RenderOptions& options, const SurfaceB
   SilhouetteResult r = silhouette_visibility(scene, rays, surface, silhouette, options.progress);
   for (const StageTime& s : r.stages) clock.add(s);
   if (silhouette.integrate) {
-    stats["options"] = {{"rows", silhouette.rows}, {"moved", silhouette.moved}};
+    stats["options"] = {{"rows", silhouette.rows}, {"tolerance", silhouette.tolerance}};
   } else {
     const ReferenceResult open =
         trace_reference(scene, rays, surface, r.open, options.reference, false, options.progress);

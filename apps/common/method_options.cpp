@@ -80,10 +80,9 @@ void add_silhouette_options(CLI::App& command, SilhouetteOptions& options) {
       ->capture_default_str()
       ->group(group);
   command
-      .add_option(
-          "--silhouette-moved", options.moved,
-          "How far silhouettes may be moved by merging faces of fine casters, light radii; 0: none are "
-          "merged")
+      .add_option("--silhouette-tolerance", options.tolerance,
+                  "How far silhouettes of merged faces may lie from the true ones, light radii; 0: no faces "
+                  "are merged")
       ->check(CLI::Range(0.0, 0.1))
       ->capture_default_str()
       ->group(group);

@@ -14,7 +14,7 @@
 #include "render/d_buffer/pictures.h"
 #include "render/gl/state_scope.h"
 #include "render/rays/ray_scene_impl.h"
-#include "render/receivers/idle_casters.h"
+#include "render/receivers/occluding_casters.h"
 #include "render/support/background.h"
 
 namespace penumbra {
@@ -158,7 +158,7 @@ void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
 void DBuffer::Impl::find_idle(const DiskLight& light) {
   std::vector<bool> idle;
   for (Caster& caster : casters) {
-    const bool is_idle = caster.planes.is_idle(light, 0.5 * kRayOffset);
+    const bool is_idle = caster.planes.cannot_occlude(light, 0.5 * kRayOffset);
     if (is_idle != caster.idle) outlined.reset();
     caster.idle = is_idle;
     idle.push_back(is_idle);
@@ -357,7 +357,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   frame.visibility = shading.shade(light, plan.view(), tiles, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
-  frame.counts["idle_casters"] = std::ranges::count_if(casters, &Caster::idle);
+  frame.counts["casters_that_cannot_occlude"] = std::ranges::count_if(casters, &Caster::idle);
   frame.counts["sampled_pixels"] = shading.sampled();
   frame.counts["buffer_size"] = options.size;
   frame.counts["buffer_bytes"] = layers->bytes();

@@ -44,7 +44,7 @@ class RayScene {
 
   const RayFrame& frame() const { return frame_; }
   double build_ms() const { return build_ms_; }
-  /// What the accurate rung's hierarchies over edges of casters took (scene_edges.h, merged_edges.h), which
+  /// What the silhouette method's hierarchies over edges of casters took (scene_edges.h, merged_edges.h), which
   /// are made when they are first used; 0 before.
   double edge_hierarchy_ms() const;
 

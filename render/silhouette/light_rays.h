@@ -1,4 +1,4 @@
-// Accurate rung: rays from a tile's receivers to points of the disk, in packets.
+// Silhouette method: rays from a tile's receivers to points of the disk, in packets.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// Accurate rung, before step 2: in which order receivers are served, and by which edges.
+// Silhouette method, before step 2: in which order receivers are served, and by which edges.
 //
 // Casters may have levels of merged edges (merged_edges.h). All tiles begin with the coarsest level that may
 // do; receivers for which its edges are moved too far are left to a later pass, the last of which has the
@@ -28,8 +28,8 @@ inline constexpr std::size_t kFewReceivers = 16;
 /// of all faces last.
 struct Passes {
   std::vector<const MergedLevel*> levels;
-  std::vector<double> moved;     ///< of the levels; light radii
-  std::vector<std::uint8_t> of;  ///< pixels that are not done: their pass
+  std::vector<double> deviation;  ///< of the levels; light radii
+  std::vector<std::uint8_t> of;   ///< pixels that are not done: their pass
   int now = 0;
 
   int last() const { return static_cast<int>(levels.size()); }
@@ -37,14 +37,14 @@ struct Passes {
   int next(double allowed) const {
     constexpr double kSpread = 1.5;
     int pass = now + 1;
-    while (pass < last() && moved[pass] * kSpread > allowed) ++pass;
+    while (pass < last() && deviation[pass] * kSpread > allowed) ++pass;
     return pass;
   }
 };
 
 /// By the merged edges (or none) and how far they may be moved (light radii); `pixels` of the image. None but
 /// the last where nothing is to be merged or a caster crosses the light's plane.
-Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double moved,
+Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double tolerance,
                    std::size_t pixels);
 
 /// The tiles of an image, and for which passes they wait.
@@ -100,7 +100,8 @@ class Tiles {
 };
 
 /// Of the receivers of some tiles that wait for this pass, by parts that lie close together.
-std::vector<Region> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
-                               const ReceiverSource& source, const UnitLight& light, const RayFrame& frame);
+std::vector<ReceiverRegion> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
+                                       const ReceiverSource& source, const UnitLight& light,
+                                       const RayFrame& frame);
 
 }  // namespace penumbra::detail

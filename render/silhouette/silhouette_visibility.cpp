@@ -9,7 +9,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/rays/ray_scene_impl.h"
 #include "render/rays/reference.h"
-#include "render/receivers/idle_casters.h"
+#include "render/receivers/occluding_casters.h"
 #include "render/silhouette/tile_evaluation.h"
 
 namespace penumbra {
@@ -23,7 +23,7 @@ SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
         &SilhouetteCounts::certified_umbra, &SilhouetteCounts::behind_light, &SilhouetteCounts::tiles,
         &SilhouetteCounts::empty_tiles, &SilhouetteCounts::listed_edges, &SilhouetteCounts::projected_edges,
         &SilhouetteCounts::segments, &SilhouetteCounts::integrated, &SilhouetteCounts::slabs,
-        &SilhouetteCounts::fused, &SilhouetteCounts::overlapping, &SilhouetteCounts::rays,
+        &SilhouetteCounts::row_sweeps, &SilhouetteCounts::overlapping, &SilhouetteCounts::rays,
         &SilhouetteCounts::second_rays})
     a.*member += b.*member;
   return a;
@@ -44,8 +44,8 @@ void require_valid(const Scene& scene, const SilhouetteOptions& options) {
   if (!(scene.light.radius > 0.0)) throw UsageError("silhouettes need a light of radius above 0");
   if (options.rows < 4 || options.rows > 1024)
     throw UsageError("rows must lie in 4 to 1024, not " + std::to_string(options.rows));
-  if (!(options.moved >= 0.0 && options.moved <= 0.1))
-    throw UsageError("moved must lie in 0 to 0.1 light radii, not " + std::to_string(options.moved));
+  if (!(options.tolerance >= 0.0 && options.tolerance <= 0.1))
+    throw UsageError("tolerance must lie in 0 to 0.1 light radii, not " + std::to_string(options.tolerance));
 }
 
 }  // namespace
@@ -56,21 +56,24 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   SilhouetteResult out;
   out.visibility.assign(surface.size(), 1.0f);
   out.region.assign(surface.size(), -1);
-  const bool may_merge = options.integrate && options.moved > 0.0;
+  const bool may_merge = options.integrate && options.tolerance > 0.0;
   const MergedEdges* merged = may_merge ? &rays.impl().merged_edges() : nullptr;
   const SceneEdges& edges = rays.impl().edges();
   StageClock clock;
   const UnitLight light(scene.light);
   const auto in_arena = [&](const auto& make) { return rays.impl().arena.execute(make); };
-  const std::vector<char> idle = in_arena([&] { return find_idle_casters(scene, rays.frame(), surface); });
-  out.counts.idle_casters = static_cast<std::size_t>(std::count(idle.begin(), idle.end(), char{1}));
-  const LitScene lit = in_arena([&] { return LitScene(scene, light, edges, idle); });
+  const std::vector<char> cannot_occlude =
+      in_arena([&] { return find_casters_that_cannot_occlude(scene, rays.frame(), surface); });
+  out.counts.casters_that_cannot_occlude =
+      static_cast<std::size_t>(std::count(cannot_occlude.begin(), cannot_occlude.end(), char{1}));
+  const LitScene lit = in_arena([&] { return LitScene(scene, light, edges, cannot_occlude); });
 
-  Passes passes = in_arena([&] { return make_passes(lit, edges, merged, options.moved, surface.size()); });
+  Passes passes =
+      in_arena([&] { return make_passes(lit, edges, merged, options.tolerance, surface.size()); });
   Tiles tiles(surface, progress);
   const auto band_of = [&](const std::vector<int>& some) {
     if (passes.now < passes.last()) return make_merged_band(lit, *merged, *passes.levels[passes.now]);
-    std::vector<Region> regions;
+    std::vector<ReceiverRegion> regions;
     if (passes.now > 0 && tiles.are_few(some))
       regions = regions_of(tiles, some, passes, ReceiverSource(scene, rays.frame(), surface, light, out),
                            light, rays.frame());

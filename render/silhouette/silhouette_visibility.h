@@ -1,19 +1,19 @@
-// Render step 5, the accurate rung: visibility without noise, from the silhouette each receiver sees.
+// Render step 5, the silhouette method: visibility without noise, from the silhouette each receiver sees.
 //
 // In: surface points. Out: V per pixel, and for many of them a certificate. Five steps, one header each:
 //
-//   silhouette_frame.h        casters → the silhouette band in the light's frame, by a hierarchy over their
-//                             edges that serves every light (scene_edges.h)
-//   silhouette_passes.h       the same with merged edges first, where casters are finer than a silhouette can
-//                             tell (merged_edges.h, face_patches.h)
-//   silhouette_gather.h       band, 8×8 receivers → the edges they may see across the disk, by a tree over
-//                             blocks of edges (silhouette_tree.h)
-//   silhouette_certificate.h  edges, receiver → segments across the disk; none: wholly lit or wholly in umbra
-//   silhouette_integrate.h    segments → exact integral of the number of hiding faces
-//   silhouette_fuse.h         scanlines → area of the lowest level, exact where only two levels occur
+//   light_band.h       casters → the silhouette band in the light's frame, by a hierarchy over their edges that
+//                      serves every light (scene_edges.h)
+//   passes.h           the same with merged edges first, where casters are finer than a silhouette can tell
+//                      (merged_edges.h, face_patches.h)
+//   shaft.h            band, 8×8 receivers → the edges they may see across the disk, by a tree over blocks of
+//                      edges (band_tree.h)
+//   projected_edges.h  edges, receiver → segments across the disk; none: wholly lit or wholly in umbra
+//   clip_segments.h    segments → exact integral of the number of hiding faces
+//   visible_area.h     segments → area of the lowest depth complexity, exact where only two occur
 //
-// and one ray to the lowest level, which tells whether that is 0. Receivers are the surface buffer's points,
-// moved by the same offset as the origins of rays; what is certified is O of the moved point. The idea of
+// and one ray to the lowest depth complexity, which tells whether that is 0. Receivers are the surface buffer's
+// points, moved by the same offset as the origins of rays; what is certified is O of the moved point. The idea of
 // integrating visible area from silhouettes seen from the receiver is that of E. Eisemann and X. Décoret,
 // "Visibility sampling on GPU and applications" (2007), and of soft shadow volumes (S. Laine et al., 2005),
 // which sample; here areas are exact, overlap is fused, and the band replaces their edge searches.
@@ -30,20 +30,21 @@
 namespace penumbra {
 
 struct SilhouetteOptions {
-  int rows = 64;          ///< scanlines where more than two levels may occur, 4 to 1024; three quarters
-                          ///< of them where fewer than 256 edges cross the disk
-  bool integrate = true;  ///< false: certificates only; pixels without one are listed in `open`, and
-                          ///< such that would have to look at more than some 8,000 edges are not tried
-  double moved = 4e-3;    ///< how far silhouettes of merged faces may lie from the true ones, in light
-                          ///< radii in the light's plane (merged_edges.h), 0 to 0.1; 0: no faces are
-                          ///< merged. Only for casters of 1,024 faces or more, and never for `integrate`
-                          ///< false
+  int rows = 64;  ///< scanlines where more than two depth complexities may occur, 4 to 1024; three quarters
+                  ///< of them where fewer than 256 edges cross the disk
+  bool integrate = true;    ///< false: certificates only; pixels without one are listed in `open`, and
+                            ///< such that would have to look at more than some 8,000 edges are not tried
+  double tolerance = 4e-3;  ///< how far silhouettes of merged faces may lie from the true ones, in light
+                            ///< radii in the light's plane (merged_edges.h), 0 to 0.1; 0: no faces are
+                            ///< merged. Only for casters of 1,024 faces or more, and never for `integrate`
+                            ///< false
   int fallback_samples = 1024;  ///< rays a pixel where edges do not close up (none are known) or the offset
                                 ///< moves a receiver behind the light's plane; counted
 };
 
 struct SilhouetteCounts {
-  std::size_t idle_casters = 0;  ///< that hide nothing from any receiver, and are not among the following
+  /// They hide nothing from any receiver, and are not among the following.
+  std::size_t casters_that_cannot_occlude = 0;
   std::size_t faces = 0, mesh_edges = 0, band_edges = 0, cut_edges = 0;
   std::size_t receivers = 0;         ///< in front of the light, with some of it above the horizon
   std::size_t merged_receivers = 0;  ///< of these, that saw merged faces
@@ -54,8 +55,8 @@ struct SilhouetteCounts {
   std::size_t segments = 0;                ///< sum over receivers of the segments across the disk
   std::size_t integrated = 0;              ///< receivers whose area was integrated
   std::size_t slabs = 0;                   ///< of these, by slabs
-  std::size_t fused = 0;                   ///< of these, by rows
-  std::size_t overlapping = 0;             ///< of these, where more than two levels were met
+  std::size_t row_sweeps = 0;              ///< of these, by rows
+  std::size_t overlapping = 0;             ///< of these, where more than two depth complexities were met
   std::size_t rays = 0, second_rays = 0;
   std::size_t fallback = 0;         ///< receivers left to rays, see fallback_samples
   std::size_t bytes = 0;            ///< of the band, its tree and all threads' lists at their longest

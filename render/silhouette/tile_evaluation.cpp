@@ -37,7 +37,7 @@ std::uint32_t Evaluation::tile(int column, int row, Workspace& w) const {
   w.undecided.clear();
   const std::size_t behind = source_.collect(column, row, w.tile, w.undecided);
   if (passes_.now > 0) {
-    std::erase_if(w.tile, [&](const Receiver& r) { return passes_.of[r.pixel] != passes_.now; });
+    std::erase_if(w.tile, [&](const TileReceiver& r) { return passes_.of[r.pixel] != passes_.now; });
   } else {
     w.counts.receivers += w.tile.size();
     w.counts.behind_light += behind;
@@ -50,15 +50,15 @@ std::uint32_t Evaluation::tile(int column, int row, Workspace& w) const {
 }
 
 /// Receivers that lie close together.
-void Evaluation::part(std::span<Receiver> receivers, Workspace& w) const {
+void Evaluation::part(std::span<TileReceiver> receivers, Workspace& w) const {
   Shaft shaft(receivers, band_.extent);
   w.blocks[0].clear();
   const bool reached = is_reached(shaft);
   if (reached && !tree_.misses(shaft)) {
     if (band_.edges.size() > kShortList) shaft.tighten(receivers);  // costs more than few edges
-    tree_.gather(shaft, w.blocks[0]);
+    tree_.collect(shaft, w.blocks[0]);
     const Moves m = moves(shaft, w.blocks[0]);
-    if (m.most > options_.moved) return leave(receivers, passes_.next(m.allowed), w);
+    if (m.most > options_.tolerance) return leave(receivers, passes_.next(m.allowed), w);
     w.sliver = kSliver * m.most;
   }
   ++w.counts.tiles;
@@ -74,45 +74,45 @@ void Evaluation::part(std::span<Receiver> receivers, Workspace& w) const {
 
 /// To a later pass. Where no merged edges will do, halves are tried: a tile may show two surfaces, one of
 /// which is near to what casts.
-void Evaluation::leave(std::span<Receiver> receivers, int pass, Workspace& w) const {
+void Evaluation::leave(std::span<TileReceiver> receivers, int pass, Workspace& w) const {
   if (pass == passes_.last() && receivers.size() > kFewReceivers) {
     const std::size_t middle = halve(receivers);
     part(receivers.first(middle), w);
     return part(receivers.subspan(middle), w);
   }
-  for (const Receiver& r : receivers) passes_.of[r.pixel] = static_cast<std::uint8_t>(pass);
+  for (const TileReceiver& r : receivers) passes_.of[r.pixel] = static_cast<std::uint8_t>(pass);
   w.later |= 1u << pass;
 }
 
 /// What lies at p is seen by x magnified by x.z/(x.z - p.z) and, at a slant, by |x - p|/(x.z - p.z) once
 /// more; p in a block's box, x in that of the receivers.
-Evaluation::Moves Evaluation::moves(const Shaft& shaft, const std::vector<Siblings>& list) const {
+Evaluation::Moves Evaluation::moves(const Shaft& shaft, const std::vector<NodeMask>& list) const {
   const Vec3 middle = shaft.middle();
   const double lowest = middle.z - shaft.half().z, highest = middle.z + shaft.half().z;
   Moves out;
   for_each_block(list, [&](std::size_t block) {
-    if (block >= band_.moved.size() || !(band_.moved[block] > 0.0f)) return;
+    if (block >= band_.deviation.size() || !(band_.deviation[block] > 0.0f)) return;
     const BlockBounds& b = band_.bounds[block];
     const double below = std::max(0.0, lowest - b.high.z);
     const double away =
         glm::distance(middle, 0.5 * (b.low + b.high)) + glm::length(shaft.half() + 0.5 * (b.high - b.low));
     const double magnified = away * highest / (below * below);
-    out.most = std::max(out.most, band_.moved[block] * magnified);
-    out.allowed = std::min(out.allowed, options_.moved / magnified);
+    out.most = std::max(out.most, band_.deviation[block] * magnified);
+    out.allowed = std::min(out.allowed, options_.tolerance / magnified);
   });
   return out;
 }
 
 void Evaluation::look_around(const Shaft& shaft, Workspace& w) const {
-  if (band_.is_merged()) w.doubts.begin(band_, w.blocks[0], shaft);
-  w.fused.resize(w.receivers.size());
+  if (band_.is_merged()) w.uncertain.begin_tile(band_, w.blocks[0], shaft);
+  w.areas.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
   w.tasks.clear();
   if (are_blocks_better(w)) {
     w.counts.listed_edges += count_blocks(w.blocks[0]) * BandTree::kFanOut;
     divide_blocks(0, w.receivers.size(), 0, w);
   } else {
-    blocks_.gather(w.blocks[0], shaft, w.edges);
+    blocks_.collect(w.blocks[0], shaft, w.edges);
     w.counts.listed_edges += w.edges.size();
     w.counts.empty_tiles += w.edges.empty() ? 1 : 0;
     w.list.assign(band_, w.edges, shaft.middle());
@@ -156,7 +156,7 @@ void Evaluation::divide(std::size_t first, std::size_t last, Workspace& w) const
 /// The same with lists of blocks: halved until parts are small enough to narrow the list for, three times
 /// over.
 void Evaluation::divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const {
-  const std::vector<Siblings>& list = w.blocks[level];
+  const std::vector<NodeMask>& list = w.blocks[level];
   if (level + 1 == kPartSizes.size()) {
     for (std::size_t i = first; i < last; ++i) evaluate_blocks(i, list, w);
     return;
@@ -167,70 +167,70 @@ void Evaluation::divide_blocks(std::size_t first, std::size_t last, std::size_t 
     divide_blocks(first, middle, level, w);
     return divide_blocks(middle, last, level, w);
   }
-  if (level == 0) w.doubts.look_at(part);
+  if (level == 0) w.uncertain.begin_part(part);
   tree_.narrow(list, part, w.blocks[level + 1]);
   divide_blocks(first, last, level + 1, w);
 }
 
 void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) const {
-  cut_segments(w.sight.segments, w.sight.inside, part, w.cut);
-  if (!w.cut.closed) {
+  clip_segments(w.projected.segments, w.projected.inside, part, w.clipped);
+  if (!w.clipped.closed) {
     w.fallback.push_back(w.receivers[i].pixel);
     return;
   }
-  w.fuser.fuse(w.cut, part, options_.rows, w.sliver, w.fused[i]);
-  add_task(w.tasks, w.receivers[i].pixel, w.fused[i].aims[0], false, i);
-  w.counts.segments += w.cut.segments.size();
+  w.visible_area.compute(w.clipped, part, options_.rows, w.sliver, w.areas[i]);
+  add_task(w.tasks, w.receivers[i].pixel, w.areas[i].aims[0], false, i);
+  w.counts.segments += w.clipped.segments.size();
   ++w.counts.integrated;
-  w.counts.slabs += w.fused[i].way == Fusion::kSlabs ? 1 : 0;
-  w.counts.fused += w.fused[i].way == Fusion::kRows ? 1 : 0;
-  w.counts.overlapping += w.fused[i].levels > 2 ? 1 : 0;
+  w.counts.slabs += w.areas[i].method == AreaMethod::kSlabs ? 1 : 0;
+  w.counts.row_sweeps += w.areas[i].method == AreaMethod::kRows ? 1 : 0;
+  w.counts.overlapping += w.areas[i].complexities > 2 ? 1 : 0;
 }
 
 void Evaluation::evaluate(std::size_t first, std::size_t last, const EdgeList& list, Workspace& w) const {
   for (std::size_t begin = first; begin < last; begin += kFewReceivers) {
     const std::size_t end = std::min(begin + kFewReceivers, last);
-    w.doubts.look_at(std::span(w.receivers).subspan(begin, end - begin));
+    w.uncertain.begin_part(std::span(w.receivers).subspan(begin, end - begin));
     for (std::size_t i = begin; i < end; ++i) evaluate(i, list, w);
   }
 }
 
 void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
-  const Receiver& r = w.receivers[i];
+  const TileReceiver& r = w.receivers[i];
   if (!options_.integrate && list.size() > kMostToCertify) return w.open.push_back(r.pixel);
-  look(list, r.x, r.horizon, slack_, w.sight);
+  project_edges(list, r.x, r.horizon, slack_, w.projected);
   w.counts.projected_edges += list.size();
   judge(i, w);
 }
 
-void Evaluation::evaluate_blocks(std::size_t i, const std::vector<Siblings>& list, Workspace& w) const {
-  const Receiver& r = w.receivers[i];
+void Evaluation::evaluate_blocks(std::size_t i, const std::vector<NodeMask>& list, Workspace& w) const {
+  const TileReceiver& r = w.receivers[i];
   const std::size_t most = options_.integrate ? blocks_.count() : kMostToCertify / BandTree::kFanOut;
-  if (!blocks_.sift(tree_, list, r, most, w.sight.sifted)) return w.open.push_back(r.pixel);
-  look(band_, w.sight.sifted, r.x, r.horizon, slack_, w.sight);
-  w.counts.projected_edges += BandTree::kFanOut * w.sight.sifted.looked_into;
+  if (!blocks_.test_edges(tree_, list, r, most, w.projected.tested)) return w.open.push_back(r.pixel);
+  project_edges(band_, w.projected.tested, r.x, r.horizon, slack_, w.projected);
+  w.counts.projected_edges += BandTree::kFanOut * w.projected.tested.looked_into;
   judge(i, w);
 }
 
 /// Nothing is across the disk for certain. Below a horizon that cuts the disk edges may have been left out:
 /// nothing is certified there. Of merged faces some may look the other way than their patch does.
 bool Evaluation::is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const {
-  if (!w.sight.certain || part.is_cut()) return false;
-  return !band_.is_merged() || w.doubts.are_none(w.receivers[i], slack_);
+  if (!w.projected.certain || part.is_cut()) return false;
+  return !band_.is_merged() || w.uncertain.are_none(w.receivers[i], slack_);
 }
 
 /// What a receiver sees, integrated; or the certificate.
 void Evaluation::judge(std::size_t i, Workspace& w) const {
-  const Receiver& r = w.receivers[i];
+  const TileReceiver& r = w.receivers[i];
   const DiskPart part(r.horizon);
   w.certain[i] = is_beyond_doubt(i, part, w);
-  if (w.sight.segments.empty()) {
+  if (w.projected.segments.empty()) {
     const glm::dvec2 middle = part.middle();
-    Fused& fused = w.fused[i];
-    fused.area = part.area();
-    fused.levels = 1;
-    fused.aims[0] = fused.aims[1] = middle;
-    fused.way = Fusion::kChain;
+    VisibleAreaResult& result = w.areas[i];
+    result.area = part.area();
+    result.complexities = 1;
+    result.aims[0] = result.aims[1] = middle;
+    result.method = AreaMethod::kChain;
     add_task(w.tasks, r.pixel, middle, w.certain[i] != 0, i);
   } else if (options_.integrate) {
     integrate(i, part, w);
@@ -241,7 +241,7 @@ void Evaluation::judge(std::size_t i, Workspace& w) const {
 
 /// No caster is between the tile and the light.
 void Evaluation::light_up(Workspace& w) const {
-  for (const Receiver& r : w.receivers) {
+  for (const TileReceiver& r : w.receivers) {
     out_.visibility[r.pixel] = static_cast<float>(half_plane_area(r.horizon.delta));
     out_.region[r.pixel] = 0;
   }
@@ -263,12 +263,12 @@ void Evaluation::certify(const RayTask& task, Workspace& w) const {
 /// The rays of a tile, and what they make of its areas.
 void Evaluation::decide(Workspace& w) const {
   const auto settle = [&](const RayTask& task) {
-    out_.visibility[task.pixel] = task.free ? static_cast<float>(w.fused[task.receiver].area / kPi) : 0.0f;
+    out_.visibility[task.pixel] = task.free ? static_cast<float>(w.areas[task.receiver].area / kPi) : 0.0f;
   };
   w.second_tasks.clear();
   trace_tasks(rays_, surface_, light_, w.tasks);
   for (const RayTask& task : w.tasks) {
-    const Fused& f = w.fused[task.receiver];
+    const VisibleAreaResult& f = w.areas[task.receiver];
     if (w.certain[task.receiver])
       certify(task, w);
     else if (task.free || f.aims[1] == f.aims[0])

@@ -1,8 +1,8 @@
-// Accurate rung: one pass over tiles of receivers, from the band's edges to V.
+// Silhouette method: one pass over tiles of receivers, from the band's edges to V.
 //
 // In: a band of edges (all faces' or merged ones), a tile of the surface buffer. Out: V and region of its
 // receivers, but of those for which the band's merged edges are moved too far: they are left to a later pass
-// (silhouette_passes.h). A tile gathers the blocks of edges that matter to it, narrows the list down to parts
+// (passes.h). A tile collects the blocks of edges that matter to it, narrows the list down to parts
 // of the tile and to single receivers, and for each of these looks, integrates and fuses; then come the
 // tile's rays.
 #pragma once
@@ -16,9 +16,9 @@
 
 #include "render/silhouette/areas/visible_area.h"
 #include "render/silhouette/collect/edge_blocks.h"
+#include "render/silhouette/collect/merged_certificate.h"
 #include "render/silhouette/collect/shaft.h"
 #include "render/silhouette/light_rays.h"
-#include "render/silhouette/merge/merged_certificate.h"
 #include "render/silhouette/passes.h"
 #include "render/silhouette/silhouette_visibility.h"
 #include "render/silhouette/tile_receivers.h"
@@ -27,27 +27,27 @@ namespace penumbra::detail {
 
 /// What one thread keeps between tiles, and what it has counted.
 struct Workspace {
-  std::vector<Receiver> tile;       ///< all of a tile
-  std::vector<Receiver> receivers;  ///< of it, those at hand
-  std::vector<Fused> fused;         ///< one a receiver
-  std::vector<char> certain;        ///< one a receiver
+  std::vector<TileReceiver> tile;        ///< all of a tile
+  std::vector<TileReceiver> receivers;   ///< of it, those at hand
+  std::vector<VisibleAreaResult> areas;  ///< one a receiver
+  std::vector<char> certain;             ///< one a receiver
   std::vector<std::uint32_t> edges;
-  Doubts doubts;                                ///< of merged edges
-  std::array<std::vector<Siblings>, 3> blocks;  ///< of the tile, and of its parts
+  UncertainEdges uncertain;                     ///< of merged edges
+  std::array<std::vector<NodeMask>, 3> blocks;  ///< of the tile, and of its parts
   EdgeList list, part_list;                     ///< of the tile, and of the part at hand
-  Sight sight;
-  Cut cut;
-  Fuser fuser;
+  ProjectedEdges projected;
+  ClippedSegments clipped;
+  VisibleArea visible_area;
   std::vector<RayTask> tasks, second_tasks;
   std::vector<std::uint32_t> undecided;  ///< pixels of the tile
-  double sliver = 0.0;                   ///< of the receivers at hand, see Fuser::fuse
+  double sliver = 0.0;                   ///< of the receivers at hand, see VisibleArea::compute
   std::uint32_t later = 0;               ///< passes that some of the tile's receivers are left to, as bits
   std::vector<std::uint32_t> fallback, open;
   SilhouetteCounts counts;
 
   std::size_t bytes() const {
-    std::size_t sum =
-        receivers.capacity() * (sizeof(Receiver) + sizeof(Fused)) + edges.capacity() * sizeof(edges[0]);
+    std::size_t sum = receivers.capacity() * (sizeof(TileReceiver) + sizeof(VisibleAreaResult)) +
+                      edges.capacity() * sizeof(edges[0]);
     for (const auto& b : blocks) sum += b.capacity() * sizeof(b[0]);
     return sum + list.bytes() + part_list.bytes();
   }
@@ -84,15 +84,15 @@ class Evaluation {
   }
 
  private:
-  void part(std::span<Receiver> receivers, Workspace& w) const;
-  void leave(std::span<Receiver> receivers, int pass, Workspace& w) const;
+  void part(std::span<TileReceiver> receivers, Workspace& w) const;
+  void leave(std::span<TileReceiver> receivers, int pass, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
   /// In the light's plane and light radii: how far silhouettes of merged faces in a list of blocks are moved
-  /// at most for any of the receivers. In light radii: how far they might be moved (`MergedEdge::moved`).
+  /// at most for any of the receivers. In light radii: how far they might be moved (`MergedEdge::deviation`).
   struct Moves {
     double most = 0.0, allowed = std::numeric_limits<double>::infinity();
   };
-  Moves moves(const Shaft& shaft, const std::vector<Siblings>& list) const;
+  Moves moves(const Shaft& shaft, const std::vector<NodeMask>& list) const;
   void look_around(const Shaft& shaft, Workspace& w) const;
   bool is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const;
   bool are_blocks_better(Workspace& w) const;
@@ -100,7 +100,7 @@ class Evaluation {
   void divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const;
   void evaluate(std::size_t first, std::size_t last, const EdgeList& list, Workspace& w) const;
   void evaluate(std::size_t i, const EdgeList& list, Workspace& w) const;
-  void evaluate_blocks(std::size_t i, const std::vector<Siblings>& list, Workspace& w) const;
+  void evaluate_blocks(std::size_t i, const std::vector<NodeMask>& list, Workspace& w) const;
   void judge(std::size_t i, Workspace& w) const;
   void integrate(std::size_t i, const DiskPart& part, Workspace& w) const;
   void certify(const RayTask& task, Workspace& w) const;

@@ -14,7 +14,7 @@ ReceiverSource::ReceiverSource(const Scene& scene, const RayFrame& frame, const 
 
 /// Inlined: a call would take two of a pixel's few nanoseconds.
 PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::size_t pixel,
-                                                         std::vector<Receiver>& receivers) const {
+                                                         std::vector<TileReceiver>& receivers) const {
   if (!surface_.hit(pixel)) return Kind::kNoSurface;
   const Vec3& normal = surface_.normal[pixel];
   const Vec3 x = light_.point(surface_.position[pixel] + offset_ * normal);
@@ -35,7 +35,7 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::size_t pixel,
   }
   // In place, member by member: a receiver made elsewhere and copied is read in wider pieces than it was
   // written in, for which the processor waits.
-  Receiver& r = receivers.emplace_back();
+  TileReceiver& r = receivers.emplace_back();
   r.x = x;
   r.normal = n;
   r.horizon = cuts ? chord_of_plane(n, x, 1.0) : no_horizon();
@@ -44,7 +44,7 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::size_t pixel,
   return Kind::kReceiver;
 }
 
-std::size_t ReceiverSource::collect(int column, int row, std::vector<Receiver>& receivers,
+std::size_t ReceiverSource::collect(int column, int row, std::vector<TileReceiver>& receivers,
                                     std::vector<std::uint32_t>& undecided) const {
   receivers.clear();
   std::size_t behind = 0;
@@ -60,15 +60,15 @@ std::size_t ReceiverSource::collect(int column, int row, std::vector<Receiver>& 
   return behind;
 }
 
-std::size_t halve(std::span<Receiver> receivers) {
+std::size_t halve(std::span<TileReceiver> receivers) {
   Bounds box;
-  for (const Receiver& r : receivers) box.add(r.x);
+  for (const TileReceiver& r : receivers) box.add(r.x);
   const Vec3 size = box.high - box.low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
   const std::size_t middle = receivers.size() / 2;
   std::nth_element(receivers.begin(), receivers.begin() + static_cast<std::ptrdiff_t>(middle),
                    receivers.end(),
-                   [axis](const Receiver& a, const Receiver& b) { return a.x[axis] < b.x[axis]; });
+                   [axis](const TileReceiver& a, const TileReceiver& b) { return a.x[axis] < b.x[axis]; });
   return middle;
 }
 

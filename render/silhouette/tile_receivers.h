@@ -1,4 +1,4 @@
-// Accurate rung, before step 2: the receivers of a tile, and the pixels that need no looking.
+// Silhouette method, before step 2: the receivers of a tile, and the pixels that need no looking.
 //
 // In: the surface buffer. Out: its points in the light's frame, moved off their surfaces as the origins of
 // rays are, with the chord that each one's horizon cuts off the disk.
@@ -25,13 +25,13 @@ class ReceiverSource {
   /// `undecided` also the pixels that only the offset moves behind the light's plane; both in the order of
   /// pixels, the first replaced and the second appended to. Returns how many pixels are behind the light,
   /// hence in umbra.
-  std::size_t collect(int column, int row, std::vector<Receiver>& receivers,
+  std::size_t collect(int column, int row, std::vector<TileReceiver>& receivers,
                       std::vector<std::uint32_t>& undecided) const;
 
  private:
   /// What one pixel is.
   enum class Kind : std::uint8_t { kReceiver, kNoSurface, kBehindLight, kBelowHorizon, kUndecided };
-  Kind add(std::size_t pixel, std::vector<Receiver>& receivers) const;
+  Kind add(std::size_t pixel, std::vector<TileReceiver>& receivers) const;
 
   const Scene& scene_;
   const SurfaceBuffer& surface_;
@@ -41,6 +41,6 @@ class ReceiverSource {
 };
 
 /// Sorts receivers into two halves along the longest side of their box; returns where the second begins.
-std::size_t halve(std::span<Receiver> receivers);
+std::size_t halve(std::span<TileReceiver> receivers);
 
 }  // namespace penumbra::detail

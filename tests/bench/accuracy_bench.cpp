@@ -1,4 +1,4 @@
-// Every method's time against its error, the accurate rung as the truth: no noise, no long references.
+// Every method's time against its error, the silhouette method as the truth: no noise, no long references.
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -12,7 +12,7 @@ namespace penumbra::bench {
 namespace {
 
 constexpr int kFrames = 3;
-constexpr double kNearlyNone = 1e-4;  // of the disk: the accurate rung's own rounding and more
+constexpr double kNearlyNone = 1e-4;  // of the disk: the silhouette method's own rounding and more
 
 struct Row {
   const char* name;

@@ -54,11 +54,11 @@ struct Truth {
 /// grows.
 void bench_d_buffer(const std::vector<std::string>& scenes);
 
-/// accuracy_bench.cpp: each method's frame and its error against the accurate rung, floor pixels and casters'
+/// accuracy_bench.cpp: each method's frame and its error against the silhouette method, floor pixels and casters'
 /// apart, for one scene of data/scenes.
 void measure_accuracy(const std::string& name);
 
-/// silhouette_bench.cpp: the accurate rung against rays, for one scene of data/scenes.
+/// silhouette_bench.cpp: the silhouette method against rays, for one scene of data/scenes.
 void time_silhouettes(const std::string& name);
 /// The same file: 1,000 times the faces, and lights of 16 times the radius.
 void time_silhouette_growth();

@@ -1,4 +1,4 @@
-// The accurate rung against rays: medians of interleaved frames, visibility alone; what is certified; and how
+// The silhouette method against rays: medians of interleaved frames, visibility alone; what is certified; and how
 // frames grow with faces and with the light.
 #include <cstdio>
 #include <string>

@@ -1,4 +1,4 @@
-// Accurate rung: the part of the disk that a receiver's horizon leaves, and its boundary.
+// Silhouette method: the part of the disk that a receiver's horizon leaves, and its boundary.
 //
 // D = {|p| ≤ 1, n·p + δ ≥ 0}, convex; its boundary is an arc, and a chord where -1 < δ < 1. It is walked
 // counter-clockwise from D's lowest point: up the right side, down the left side. A boundary point belongs to

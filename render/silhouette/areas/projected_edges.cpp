@@ -26,7 +26,7 @@ enum State : std::int64_t {
   kUnclear   ///< an end does not lie below the receiver
 };
 
-/// Whether segment a b comes within 1 + slack of the disk's centre, its ends being outside of the disk, from
+/// Whether segment a b comes within 1 + slack of the disk's center, its ends being outside of the disk, from
 /// |a|², |b|², s = b - a, a·s and a × s. No division: ends may be far away.
 PENUMBRA_INLINE bool comes_near(double a2, double b2, double s2, double as, double cross, double reach2) {
   const bool before = as >= 0.0, beyond = -as >= s2;
@@ -68,8 +68,9 @@ void project(const double* ends, std::int32_t stride, const std::int32_t* places
 }
 
 /// One edge at a time, for those that `project` or the floats before it left open.
-void see_one(const BandEdge& edge, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
-  const Projection p = see(edge, x, slack);
+void add_projection(const BandEdge& edge, const Vec3& x, const Chord& horizon, double slack,
+                    ProjectedEdges& out) {
+  const Projection p = project_edge(edge, x, slack);
   if (!p.near) return;
   out.certain = false;
   if (p.segment.jump == 0) return;
@@ -77,26 +78,26 @@ void see_one(const BandEdge& edge, const Vec3& x, const Chord& horizon, double s
   out.crossing.push_back(p.segment);
 }
 
-/// The sifted edges: in vectors, and then one by one what they left open. `ends`: those of the edge at place
+/// The tested edges: in vectors, and then one by one what they left open. `ends`: those of the edge at place
 /// i from stride · i.
 template <class EdgeAt>
-void see_sifted(const Sifted& sifted, const double* ends, std::int32_t stride, const EdgeAt& edge_at,
-                const Vec3& x, const Chord& horizon, double slack, Sight& out) {
-  const std::size_t count = sifted.count;
+void project_tested(const TestedEdges& tested, const double* ends, std::int32_t stride, const EdgeAt& edge_at,
+                    const Vec3& x, const Chord& horizon, double slack, ProjectedEdges& out) {
+  const std::size_t count = tested.count;
   for (auto& column : out.ends) column.resize(std::max(column.size(), count));
   out.states.resize(std::max(out.states.size(), count));
   out.segments.resize(count);
   const double reach = 1.0 + slack;
   const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
                *by = out.ends[3].data();
-  project(ends, stride, sifted.places.data(), static_cast<int>(count),
+  project(ends, stride, tested.places.data(), static_cast<int>(count),
           {x.x, x.y, x.z, kHair * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
           out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
   std::size_t inside = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t state = out.states[i];
-    const std::int32_t jump = sifted.jumps[i];
-    const bool sure = jump != Sifted::kUnsure;
+    const std::int32_t jump = tested.jumps[i];
+    const bool sure = jump != TestedEdges::kUnsure;
     out.segments[inside] = {{ax[i], ay[i]}, {bx[i], by[i]}, jump};
     if (state == kInside && sure) {
       ++inside;
@@ -104,7 +105,7 @@ void see_sifted(const Sifted& sifted, const double* ends, std::int32_t stride, c
     }
     if (state == kFar) continue;
     if (state == kUnclear || !sure) {
-      see_one(edge_at(sifted.places[i]), x, horizon, slack, out);
+      add_projection(edge_at(tested.places[i]), x, horizon, slack, out);
     } else {
       out.certain = false;
       if (state == kCrosses) out.crossing.push_back(out.segments[inside]);
@@ -118,7 +119,7 @@ void see_sifted(const Sifted& sifted, const double* ends, std::int32_t stride, c
 
 }  // namespace
 
-void Sight::clear() {
+void ProjectedEdges::clear() {
   segments.clear();
   inside = 0;
   certain = true;
@@ -129,7 +130,7 @@ double certificate_slack(double extent) {
   return 1e-6 + 0x1p-26 * extent;
 }
 
-Projection see(const BandEdge& e, const Vec3& x, double slack) {
+Projection project_edge(const BandEdge& e, const Vec3& x, double slack) {
   const double left = e.left.value(x), right = e.has_right() ? e.right.value(x) : 0.0;
   const int jump = (left > 0.0 ? 1 : -1) + (e.has_right() ? (right > 0.0 ? -1 : 1) : 0);
   const bool sure = std::abs(left) > e.left.tolerance && std::abs(right) > e.right.tolerance;
@@ -154,29 +155,31 @@ Projection see(const BandEdge& e, const Vec3& x, double slack) {
                      pa.x * s.y - pa.y * s.x, reach * reach)};
 }
 
-void look(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack, Sight& out) {
+void project_edges(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack,
+                   ProjectedEdges& out) {
   out.clear();
   if (list.size() <= kFewEdges) {
-    for (std::size_t i = 0; i < list.size(); ++i) see_one(list.edge(list.place(i)), x, horizon, slack, out);
+    for (std::size_t i = 0; i < list.size(); ++i)
+      add_projection(list.edge(list.place(i)), x, horizon, slack, out);
     std::swap(out.segments, out.crossing);
     return;
   }
-  sift(list, x, out.sifted);
-  see_sifted(
-      out.sifted, list.ends(), 6, [&](std::int32_t place) -> const BandEdge& { return list.edge(place); }, x,
+  test_edges(list, x, out.tested);
+  project_tested(
+      out.tested, list.ends(), 6, [&](std::int32_t place) -> const BandEdge& { return list.edge(place); }, x,
       horizon, slack, out);
 }
 
-void look(const Band& band, const Sifted& sifted, const Vec3& x, const Chord& horizon, double slack,
-          Sight& out) {
+void project_edges(const Band& band, const TestedEdges& tested, const Vec3& x, const Chord& horizon,
+                   double slack, ProjectedEdges& out) {
   static_assert(offsetof(BandEdge, b) == 3 * sizeof(double) && sizeof(BandEdge) % sizeof(double) == 0);
   constexpr std::int32_t kStride = sizeof(BandEdge) / sizeof(double);
   out.clear();
-  if (sifted.count == 0) return;
-  for (std::size_t i = 0; i < sifted.count; ++i)
-    __builtin_prefetch(&band.edges[static_cast<std::size_t>(sifted.places[i])]);
-  see_sifted(
-      sifted, &band.edges[0].a.x, kStride,
+  if (tested.count == 0) return;
+  for (std::size_t i = 0; i < tested.count; ++i)
+    __builtin_prefetch(&band.edges[static_cast<std::size_t>(tested.places[i])]);
+  project_tested(
+      tested, &band.edges[0].a.x, kStride,
       [&](std::int32_t place) -> const BandEdge& { return band.edges[static_cast<std::size_t>(place)]; }, x,
       horizon, slack, out);
 }

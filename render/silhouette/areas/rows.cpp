@@ -13,8 +13,8 @@ namespace penumbra::detail {
 namespace {
 
 constexpr int kFewKeys = 96;            // a row: what sorts them is written down
-constexpr double kLeastLength = 1e-10;  // an interval shorter than that is rounding, not a level
-constexpr double kNoLevel = 1e9;        // above all
+constexpr double kLeastLength = 1e-10;  // an interval shorter than that is rounding, not a depth complexity
+constexpr double kNoComplexity = 1e9;   // above all
 constexpr double kMagic = 0x1.8p52;     // kMagic + n has the integer n in its last bits
 
 /// x and a change of -2 to 2 in one number; x loses its last three bits.
@@ -103,7 +103,7 @@ struct Sweep {
   using Integers = typename Lanes::Integers;
 
   Reals left, right;
-  Reals from, level;  // where the interval at hand begins, and its L
+  Reals from, complexity;  // where the interval at hand begins, and its L
   double least;
   Reals length{}, first{}, second{}, lowest{}, lowest_length{}, best{}, middle{};  // as in RowResults
   Integers seen{};
@@ -112,18 +112,18 @@ struct Sweep {
       : left(Lanes::load(rows.left + lane)),
         right(Lanes::load(rows.right + lane)),
         from(left),
-        level(Lanes::load(rows.level + lane)),
+        complexity(Lanes::load(rows.complexity + lane)),
         least(rows.least) {
-    lowest += kNoLevel;
+    lowest += kNoComplexity;
   }
 
   /// The intervals that end at the next keys.
   PENUMBRA_INLINE void step(const Reals& key) {
-    const Reals zero{}, none = zero + kNoLevel;
+    const Reals zero{}, none = zero + kNoComplexity;
     const Reals right_of_left = key > left ? key : left;
     const Reals x = right_of_left < right ? right_of_left : right;
     const Reals ahead = x - from, long_enough = ahead > kLeastLength ? ahead : zero;
-    const Reals counted = level > least ? level : zero + least;
+    const Reals counted = complexity > least ? complexity : zero + least;
     length += long_enough;
     first += counted * long_enough;
     second += counted * counted * long_enough;
@@ -140,7 +140,7 @@ struct Sweep {
 
     from = x > from ? x : from;
     const Integers code = (__builtin_bit_cast(Integers, key) & 7) | std::bit_cast<std::int64_t>(0x1p52);
-    level += __builtin_bit_cast(Reals, code) - (0x1p52 + 4.0);
+    complexity += __builtin_bit_cast(Reals, code) - (0x1p52 + 4.0);
   }
 
   PENUMBRA_INLINE void store(RowResults& out, int lane) const {
@@ -201,7 +201,7 @@ RowEnds row_ends(const std::size_t* ends, std::size_t begin) {
 
 }  // namespace
 
-/// The first row above y. The same rounding for segments and events, so that levels stay whole.
+/// The first row above y. The same rounding for segments and events, so that depth complexities stay whole.
 inline int Rows::row_above(double y) const {
   return std::clamp(static_cast<int>((y - bottom_) * per_spacing_ + 0.5), 0, rows_);
 }
@@ -226,10 +226,10 @@ void Rows::place_rows(const DiskPart& part, int rows) {
 }
 
 /// Segments that cross a row: at height y those with low < y ≤ high.
-void Rows::find_crossing(const Cut& cut) {
-  crossing_.resize(std::max(crossing_.size(), cut.segments.size() + 1));
+void Rows::find_crossing(const ClippedSegments& clipped) {
+  crossing_.resize(std::max(crossing_.size(), clipped.segments.size() + 1));
   std::size_t count = 0;
-  for (const Segment& s : cut.segments) {  // most that are short cross no row
+  for (const Segment& s : clipped.segments) {  // most that are short cross no row
     const int from = row_above(s.a.y), to = row_above(s.b.y);
     crossing_[count] = {&s, from, to};
     count += from != to ? 1 : 0;
@@ -239,8 +239,8 @@ void Rows::find_crossing(const Cut& cut) {
 
 /// The keys of each row, in any order, and kNoCrossing up to one behind the end of the longest row that it is
 /// swept with.
-void Rows::cross(const Cut& cut) {
-  find_crossing(cut);
+void Rows::cross(const ClippedSegments& clipped) {
+  find_crossing(clipped);
   most_ = crossing_count_ + 1;
   keys_.resize(std::max(keys_.size(), most_ * stride_ / kRowLanes));
   next_.resize(stride_);
@@ -265,16 +265,16 @@ void Rows::cross(const Cut& cut) {
   }
 }
 
-/// Events on the left side of D change the levels at the left ends of all rows above.
-void Rows::start_levels(const Cut& cut, const DiskPart& part) {
-  levels_.assign(stride_ + 1, 0);
-  for (const Event& e : cut.events)
-    if (part.on_left(e)) levels_[row_above(e.at.y)] -= e.change;
-  for (int i = 1; i < rows_; ++i) levels_[i] += levels_[i - 1];
+/// Events on the left side of D change the depth complexities at the left ends of all rows above.
+void Rows::start_complexities(const ClippedSegments& clipped, const DiskPart& part) {
+  complexities_.assign(stride_ + 1, 0);
+  for (const Event& e : clipped.events)
+    if (part.on_left(e)) complexities_[row_above(e.at.y)] -= e.change;
+  for (int i = 1; i < rows_; ++i) complexities_[i] += complexities_[i - 1];
 }
 
 RowStarts Rows::starts(int first) const {
-  return {&left_[first], &right_[first], &levels_[first], least_};
+  return {&left_[first], &right_[first], &complexities_[first], least_};
 }
 
 void Rows::add(const RowResults& rows, int first, Sums& sums) const {
@@ -284,7 +284,7 @@ void Rows::add(const RowResults& rows, int first, Sums& sums) const {
     out.first += rows.first[l];
     out.second += rows.second[l];
     sums.seen |= static_cast<std::uint64_t>(rows.seen[l]);
-    if (rows.lowest[l] > out.lowest || rows.lowest[l] == kNoLevel) continue;
+    if (rows.lowest[l] > out.lowest || rows.lowest[l] == kNoComplexity) continue;
     if (rows.lowest[l] < out.lowest) out.lowest = rows.lowest[l], out.lowest_length = 0.0, sums.best = {};
     out.lowest_length += rows.lowest_length[l];
     if (rows.best[l] <= sums.best[l % 2]) continue;
@@ -294,28 +294,28 @@ void Rows::add(const RowResults& rows, int first, Sums& sums) const {
 }
 
 template <class Sweep>
-RowSums Rows::sweep_with(const Cut& cut, const DiskPart& part, int rows, double least,
+RowSums Rows::sweep_with(const ClippedSegments& clipped, const DiskPart& part, int rows, double least,
                          const Sweep& sweep_from) {
   least_ = least;
   place_rows(part, rows);
-  cross(cut);
-  start_levels(cut, part);
+  cross(clipped);
+  start_complexities(clipped, part);
   Sums sums;
-  sums.sums.lowest = kNoLevel;
+  sums.sums.lowest = kNoComplexity;
   for (int first = 0; first < static_cast<int>(stride_); first += kRowLanes) {
     RowResults results;
     sweep_from(first, results);
     add(results, first, sums);
   }
   RowSums& out = sums.sums;
-  out.levels = std::popcount(sums.seen);
+  out.complexities = std::popcount(sums.seen);
   if (sums.best[0] < sums.best[1]) std::swap(out.aims[0], out.aims[1]);
   if (std::min(sums.best[0], sums.best[1]) == 0.0) out.aims[1] = out.aims[0];
   return out;
 }
 
-RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows, double least) {
-  return sweep_with(cut, part, rows, least, [&](int first, RowResults& out) {
+RowSums Rows::sweep(const ClippedSegments& clipped, const DiskPart& part, int rows, double least) {
+  return sweep_with(clipped, part, rows, least, [&](int first, RowResults& out) {
     const int count = longest_[first / kRowLanes];
     RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kRowLanes) * most_;
     sort_lanes(keys, count);
@@ -323,8 +323,8 @@ RowSums Rows::sweep(const Cut& cut, const DiskPart& part, int rows, double least
   });
 }
 
-RowSums Rows::sweep_singly(const Cut& cut, const DiskPart& part, int rows, double least) {
-  return sweep_with(cut, part, rows, least, [&](int first, RowResults& out) {
+RowSums Rows::sweep_singly(const ClippedSegments& clipped, const DiskPart& part, int rows, double least) {
+  return sweep_with(clipped, part, rows, least, [&](int first, RowResults& out) {
     RowKeys* keys = keys_.data() + static_cast<std::size_t>(first / kRowLanes) * most_;
     const int count = longest_[first / kRowLanes];
     for (int l = 0; l < kRowLanes; ++l) sort_row(keys, count, l);  // keys of no crossing stay last

@@ -9,8 +9,8 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr int kMostLevels = 256;          // either way from the lowest point's; deeper ones count as the last
-constexpr double kLeastLength = 1e-10;    // an interval shorter than that is rounding, not a level
+constexpr int kMostComplexity = 256;      // either way from the lowest point's; deeper ones count as the last
+constexpr double kLeastLength = 1e-10;    // an interval shorter than that is rounding, not a depth complexity
 constexpr double kLeastRoom = 1e-3;       // beside a chain, for a ray
 constexpr double kMostCorrection = 0.02;  // of the area, by what rows are taken for representative
 constexpr int kMostRows = 1024;
@@ -30,45 +30,46 @@ void integrate_rim(const double* heights, std::size_t count, double* __restrict 
 
 }  // namespace
 
-bool fuse_chain(const Cut& cut, const DiskPart& part, double sliver, Fused& out) {
-  if (!is_one_chain(cut, sliver * part.area())) return false;
-  // Directed so that the lower level lies on the right.
-  const bool in_order = cut.events[0].change < 0;
-  const Event &start = cut.events[in_order ? 0 : 1], &end = cut.events[in_order ? 1 : 0];
+bool area_by_chain(const ClippedSegments& clipped, const DiskPart& part, double sliver,
+                   VisibleAreaResult& out) {
+  if (!is_one_chain(clipped, sliver * part.area())) return false;
+  // Directed so that the lower depth complexity lies on the right.
+  const bool in_order = clipped.events[0].change < 0;
+  const Event &start = clipped.events[in_order ? 0 : 1], &end = clipped.events[in_order ? 1 : 0];
   const glm::dvec2 way = end.at - start.at, middle = 0.5 * (start.at + end.at);
   const double length = glm::length(way);
   if (length < kLeastRoom) return false;
   const glm::dvec2 right = glm::dvec2(way.y, -way.x) / length;
   double bulge = 0.0;
-  for (const Segment& s : cut.segments) bulge = std::max(bulge, glm::dot(s.a - middle, right));
-  for (const Segment& s : cut.segments) bulge = std::max(bulge, glm::dot(s.b - middle, right));
+  for (const Segment& s : clipped.segments) bulge = std::max(bulge, glm::dot(s.a - middle, right));
+  for (const Segment& s : clipped.segments) bulge = std::max(bulge, glm::dot(s.b - middle, right));
   const double reach = part.distance_to_boundary(middle, right);
   if (reach - bulge < kLeastRoom) return false;
-  const double high_or_low = cut.integral / end.change;
+  const double high_or_low = clipped.integral / end.change;
   out.area =
       std::clamp(part.comes_first(start, end) ? -high_or_low : part.area() - high_or_low, 0.0, part.area());
-  out.levels = 2;
+  out.complexities = 2;
   out.aims = {middle + (0.4 * bulge + 0.6 * reach) * right, middle + (0.7 * bulge + 0.3 * reach) * right};
-  out.way = Fusion::kChain;
+  out.method = AreaMethod::kChain;
   return true;
 }
 
-void Fuser::begin(int least) {
-  areas_.resize(2 * kMostLevels + 1);
+void VisibleArea::begin(int least) {
+  areas_.resize(2 * kMostComplexity + 1);
   aims_ = {};
   least_ = least;
-  lowest_ = kMostLevels + 1, highest_ = -kMostLevels - 1, parity_ = 0;
+  lowest_ = kMostComplexity + 1, highest_ = -kMostComplexity - 1, parity_ = 0;
 }
 
-void Fuser::add_interval(const Slab& slab, double from, double to, int level) {
+void VisibleArea::add_interval(const Slab& slab, double from, double to, int complexity) {
   const double length = to - from;
   if (!(length > kLeastLength)) return;
-  level = std::clamp(level, least_, kMostLevels);
-  areas_[level + kMostLevels] += length * slab.height;
-  highest_ = std::max(highest_, level);
-  if (level > lowest_) return;
-  if (level < lowest_) {
-    lowest_ = level;
+  complexity = std::clamp(complexity, least_, kMostComplexity);
+  areas_[complexity + kMostComplexity] += length * slab.height;
+  highest_ = std::max(highest_, complexity);
+  if (complexity > lowest_) return;
+  if (complexity < lowest_) {
+    lowest_ = complexity;
     aims_ = {};
   }
   Aim& aim = aims_[parity_];
@@ -77,7 +78,7 @@ void Fuser::add_interval(const Slab& slab, double from, double to, int level) {
 }
 
 /// By x; slabs hold few crossings.
-void Fuser::sort_crossings() {
+void VisibleArea::sort_crossings() {
   for (auto c = crossings_.begin(); c != crossings_.end(); ++c) {
     const Crossing moving = *c;
     auto to = c;
@@ -87,42 +88,42 @@ void Fuser::sort_crossings() {
 }
 
 /// The intervals between a slab's crossings.
-void Fuser::sweep(const Slab& slab) {
+void VisibleArea::sweep(const Slab& slab) {
   parity_ ^= 1;
-  int level = slab.first_level;
+  int complexity = slab.first_complexity;
   double from = slab.left;
   for (const Crossing& c : crossings_) {
     const double x = std::min(std::max(c.x, slab.left), slab.right);
-    if (x > from) add_interval(slab, from, x, level);
-    level += c.change;
+    if (x > from) add_interval(slab, from, x, complexity);
+    complexity += c.change;
     from = std::max(from, x);
   }
-  add_interval(slab, from, slab.right, level);
+  add_interval(slab, from, slab.right, complexity);
 }
 
-Fused Fuser::finish() const {
-  Fused out;
-  out.area = areas_[lowest_ + kMostLevels];
-  out.levels = 0;
-  for (int k = lowest_; k <= highest_; ++k) out.levels += areas_[k + kMostLevels] > 0.0 ? 1 : 0;
+VisibleAreaResult VisibleArea::finish() const {
+  VisibleAreaResult out;
+  out.area = areas_[lowest_ + kMostComplexity];
+  out.complexities = 0;
+  for (int k = lowest_; k <= highest_; ++k) out.complexities += areas_[k + kMostComplexity] > 0.0 ? 1 : 0;
   out.aims = {aims_[0].at, aims_[1].at};
   if (aims_[0].room() < aims_[1].room()) std::swap(out.aims[0], out.aims[1]);
   if (std::min(aims_[0].area, aims_[1].area) == 0.0) out.aims[1] = out.aims[0];
-  out.way = Fusion::kSlabs;
+  out.method = AreaMethod::kSlabs;
   return out;
 }
 
-void Fuser::add_line(const Segment& s) {
+void VisibleArea::add_line(const Segment& s) {
   const bool up = s.b.y > s.a.y;
   const glm::dvec2 &low = up ? s.a : s.b, &high = up ? s.b : s.a;
   lines_.push_back({low.y, high.y, low.x, (high.x - low.x) / (high.y - low.y), up ? -s.jump : s.jump});
 }
 
 /// Ends, crossings, and where D's boundary has corners.
-void Fuser::make_heights(const DiskPart& part, const Cut& cut) {
+void VisibleArea::make_heights(const DiskPart& part, const ClippedSegments& clipped) {
   heights_ = {part.bottom(), part.top()};
   for (const double corner : part.corner_heights()) heights_.push_back(corner);
-  for (const Segment& s : cut.segments) {
+  for (const Segment& s : clipped.segments) {
     heights_.push_back(s.a.y);
     heights_.push_back(s.b.y);
   }
@@ -139,7 +140,7 @@ void Fuser::make_heights(const DiskPart& part, const Cut& cut) {
   integrate_rim(heights_.data(), heights_.size(), rim_.data());
 }
 
-void Fuser::sweep_slabs(const Cut& cut, const DiskPart& part, int least) {
+void VisibleArea::sweep_slabs(const ClippedSegments& clipped, const DiskPart& part, int least) {
   begin(least);
   std::size_t before = 0;  // the height where the last slab ended
   for (std::size_t i = 1; i < heights_.size(); ++i) {
@@ -149,8 +150,8 @@ void Fuser::sweep_slabs(const Cut& cut, const DiskPart& part, int least) {
     const auto [left, right] = part.span(y, (rim_[i] - rim_[before]) / height);
     before = i;
     Slab slab{y, height, left, right, 0};
-    for (const Event& e : cut.events)
-      if (e.at.y < y && part.on_left(e)) slab.first_level -= e.change;
+    for (const Event& e : clipped.events)
+      if (e.at.y < y && part.on_left(e)) slab.first_complexity -= e.change;
     crossings_.clear();
     for (const Line& line : lines_)
       if (line.low <= y && y < line.high) crossings_.push_back({line.at(y), line.change});
@@ -159,31 +160,32 @@ void Fuser::sweep_slabs(const Cut& cut, const DiskPart& part, int least) {
   }
 }
 
-void Fuser::forget_areas() {
-  std::fill(areas_.begin() + lowest_ + kMostLevels, areas_.begin() + highest_ + kMostLevels + 1, 0.0);
+void VisibleArea::forget_areas() {
+  std::fill(areas_.begin() + lowest_ + kMostComplexity, areas_.begin() + highest_ + kMostComplexity + 1, 0.0);
 }
 
-Fused Fuser::by_slabs(const Cut& cut, const DiskPart& part, double sliver) {
+VisibleAreaResult VisibleArea::by_slabs(const ClippedSegments& clipped, const DiskPart& part, double sliver) {
   lines_.clear();
-  for (const Segment& s : cut.segments)
+  for (const Segment& s : clipped.segments)
     if (s.a.y != s.b.y) add_line(s);
-  make_heights(part, cut);
-  sweep_slabs(cut, part, -kMostLevels);
-  while (lowest_ < highest_ && areas_[lowest_ + kMostLevels] <= sliver * part.area()) {
+  make_heights(part, clipped);
+  sweep_slabs(clipped, part, -kMostComplexity);
+  while (lowest_ < highest_ && areas_[lowest_ + kMostComplexity] <= sliver * part.area()) {
     const int next = lowest_ + 1;
     forget_areas();
-    sweep_slabs(cut, part, next);
+    sweep_slabs(clipped, part, next);
   }
-  Fused out = finish();
-  if (least_ > -kMostLevels) out.aims[1] = out.aims[0];  // the less roomy may be in the sliver
+  VisibleAreaResult out = finish();
+  if (least_ > -kMostComplexity) out.aims[1] = out.aims[0];  // the less roomy may be in the sliver
   forget_areas();
   return out;
 }
 
-RowSums Fuser::sweep_rows(const Cut& cut, const DiskPart& part, int rows, double sliver) {
-  RowSums sums = rows_.sweep(cut, part, rows);
-  while (sums.levels > 1 && sums.lowest_length <= sliver * sums.length) {
-    sums = rows_.sweep(cut, part, rows, sums.lowest + 1.0);
+RowSums VisibleArea::sweep_rows(const ClippedSegments& clipped, const DiskPart& part, int rows,
+                                double sliver) {
+  RowSums sums = rows_.sweep(clipped, part, rows);
+  while (sums.complexities > 1 && sums.lowest_length <= sliver * sums.length) {
+    sums = rows_.sweep(clipped, part, rows, sums.lowest + 1.0);
     sums.aims[1] = sums.aims[0];  // the shorter interval may be in the sliver
   }
   return sums;
@@ -191,43 +193,46 @@ RowSums Fuser::sweep_rows(const Cut& cut, const DiskPart& part, int rows, double
 
 /// Where rows and the exact integral of L disagree by much, something lies between rows that they do not
 /// represent: then four times as many are swept.
-Fused Fuser::by_rows(const Cut& cut, const DiskPart& part, int rows, double sliver) {
-  const RowSums sums = sweep_rows(cut, part, rows, sliver);
-  if (!(sums.length > 0.0)) return {part.area(), 1, {part.middle(), part.middle()}, Fusion::kRows};
+VisibleAreaResult VisibleArea::by_rows(const ClippedSegments& clipped, const DiskPart& part, int rows,
+                                       double sliver) {
+  const RowSums sums = sweep_rows(clipped, part, rows, sliver);
+  if (!(sums.length > 0.0)) return {part.area(), 1, {part.middle(), part.middle()}, AreaMethod::kRows};
   const double share = sums.lowest_length / sums.length, mean = sums.first / sums.length;
   const double variance = sums.second / sums.length - mean * mean;
-  const double c = sums.levels > 1 ? share * (sums.lowest - mean) / variance : 0.0;
-  const double correction = c * (cut.integral - part.area() * mean);
+  const double c = sums.complexities > 1 ? share * (sums.lowest - mean) / variance : 0.0;
+  const double correction = c * (clipped.integral - part.area() * mean);
   if (std::abs(correction) > kMostCorrection * part.area() && rows <= kMostRows / 4)
-    return by_rows(cut, part, 4 * rows, sliver);
+    return by_rows(clipped, part, 4 * rows, sliver);
   const double area = part.area() * share + correction;
-  return {std::clamp(area, 0.0, part.area()), sums.levels, sums.aims, Fusion::kRows};
+  return {std::clamp(area, 0.0, part.area()), sums.complexities, sums.aims, AreaMethod::kRows};
 }
 
-bool Fuser::by_few_rows(const Cut& cut, const DiskPart& part, double sliver, Fused& out) {
-  const int step = std::abs(cut.segments.front().jump);
-  if (std::ranges::any_of(cut.segments, [=](const Segment& s) { return std::abs(s.jump) != step; }))
+bool VisibleArea::by_few_rows(const ClippedSegments& clipped, const DiskPart& part, double sliver,
+                              VisibleAreaResult& out) {
+  const int step = std::abs(clipped.segments.front().jump);
+  if (std::ranges::any_of(clipped.segments, [=](const Segment& s) { return std::abs(s.jump) != step; }))
     return false;
-  const RowSums sums = sweep_rows(cut, part, kFewRows, sliver);
+  const RowSums sums = sweep_rows(clipped, part, kFewRows, sliver);
   if (!(sums.length > 0.0)) return false;
   const double low = sums.lowest, high = low + step;
   const double mean = sums.first / sums.length;
-  // (L - low)(L - high) is 0 at both levels, and two steps squared or more elsewhere.
+  // (L - low)(L - high) is 0 at both depth complexities, and two steps squared or more elsewhere.
   const double elsewhere = (sums.second - (low + high) * sums.first) / sums.length + low * high;
   if (!(elsewhere <= 2.0 * step * step * sliver)) return false;
-  if (std::abs(cut.integral - part.area() * mean) > kMostApart * step * part.area()) return false;
-  const double area = part.area() - (cut.integral - low * part.area()) / step;
-  out = {std::clamp(area, 0.0, part.area()), sums.levels, sums.aims, Fusion::kChain};
+  if (std::abs(clipped.integral - part.area() * mean) > kMostApart * step * part.area()) return false;
+  const double area = part.area() - (clipped.integral - low * part.area()) / step;
+  out = {std::clamp(area, 0.0, part.area()), sums.complexities, sums.aims, AreaMethod::kChain};
   return true;
 }
 
-void Fuser::fuse(const Cut& cut, const DiskPart& part, int rows, double sliver, Fused& out) {
-  if (fuse_chain(cut, part, sliver, out)) return;
-  const std::size_t segments = cut.segments.size();
+void VisibleArea::compute(const ClippedSegments& clipped, const DiskPart& part, int rows, double sliver,
+                          VisibleAreaResult& out) {
+  if (area_by_chain(clipped, part, sliver, out)) return;
+  const std::size_t segments = clipped.segments.size();
   if (segments <= kMostForSlabs)
-    out = by_slabs(cut, part, sliver);
-  else if (!(sliver > 0.0) || !by_few_rows(cut, part, sliver, out))
-    out = by_rows(cut, part, segments < kMany ? (3 * rows + 3) / 4 : rows, sliver);
+    out = by_slabs(clipped, part, sliver);
+  else if (!(sliver > 0.0) || !by_few_rows(clipped, part, sliver, out))
+    out = by_rows(clipped, part, segments < kMany ? (3 * rows + 3) / 4 : rows, sliver);
 }
 
 }  // namespace penumbra::detail

@@ -22,8 +22,8 @@ std::vector<BlockBounds> bounds_of_blocks(const Band& band) {
 }  // namespace
 
 PENUMBRA_VECTOR_CLONES
-std::size_t keep(const ShaftTest& test, const Children* nodes, const Siblings* in, std::size_t count,
-                 Siblings* out) {
+std::size_t keep(const ShaftTest& test, const Children* nodes, const NodeMask* in, std::size_t count,
+                 NodeMask* out) {
   return keep_with(test, nodes, in, count, out);
 }
 
@@ -33,14 +33,14 @@ bool BandTree::misses(const Shaft& shaft) const {
   return tree_.empty() || shaft.misses(tree_.box().low, tree_.box().high);
 }
 
-void BandTree::gather(const Shaft& shaft, std::vector<Siblings>& out) const {
-  tree_.gather(ShaftTest(shaft, tree_.extent()), out);
+void BandTree::collect(const Shaft& shaft, std::vector<NodeMask>& out) const {
+  tree_.collect(ShaftTest(shaft, tree_.extent()), out);
 }
 
-void BandTree::narrow(const std::vector<Siblings>& list, std::span<const Receiver> receivers,
-                      std::vector<Siblings>& out) const {
+void BandTree::narrow(const std::vector<NodeMask>& list, std::span<const TileReceiver> receivers,
+                      std::vector<NodeMask>& out) const {
   Bounds box;
-  for (const Receiver& r : receivers) box.add(r.x);
+  for (const TileReceiver& r : receivers) box.add(r.x);
   tree_.narrow(list, SidesTest(box.center(), 0.5 * (box.high - box.low)), out);
 }
 

@@ -1,4 +1,4 @@
-// Accurate rung, in step 2: what drops blocks of edges for receivers, by the blocks' bounds.
+// Silhouette method, in step 2: what drops blocks of edges for receivers, by the blocks' bounds.
 //
 // In float with the margin of block_bounds.h, M the scene's extent in light radii, and times 1 + (M + 1)/z
 // where projection enlarges errors. What is dropped is farther from the disk than the certificate's slack.
@@ -48,7 +48,7 @@ class ShaftTest {
 class ConeTest {
  public:
   ConeTest() = default;
-  ConeTest(const Receiver& receiver, double extent)
+  ConeTest(const TileReceiver& receiver, double extent)
       : at_(receiver.x, Vec3(0.0)),
         per_z_(static_cast<float>(1.0 / receiver.x.z)),
         steep_((std::hypot(at_.middle[0], at_.middle[1]) + 1.0f) * per_z_),

@@ -24,7 +24,7 @@ PENUMBRA_INLINE void jumps_of(const EdgePlanes& b, const FloatPoint& p, Ints& ou
   Floats left, right;
   value_at(p, b.left, left);
   value_at(p, b.right, right);
-  const Ints none{}, unsure = none + Sifted::kUnsure;
+  const Ints none{}, unsure = none + TestedEdges::kUnsure;
   const Ints sure = (magnitude(left) > b.left.tolerance) & (magnitude(right) > b.right.tolerance);
   // Comparisons are -1 where true.
   const Ints jump = -1 - 2 * (left > 0.0f) + (right > 0.0f) - (right < 0.0f);
@@ -35,11 +35,11 @@ constexpr Ints kLaneNumbers{0, 1, 2, 3, 4, 5, 6, 7};
 
 /// Blocks that are not dropped.
 PENUMBRA_VECTOR_CLONES
-std::size_t keep_blocks(const Children* bounds, const Siblings* list, std::size_t count, const ConeTest& cone,
+std::size_t keep_blocks(const Children* bounds, const NodeMask* list, std::size_t count, const ConeTest& cone,
                         std::int32_t* __restrict out) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Siblings s = list[i];
+    const NodeMask s = list[i];
     const std::uint32_t kept = s.kept & ~cone.dropped(bounds[s.parent]);
     found += store_lanes(kLaneNumbers + static_cast<std::int32_t>(s.parent) * kFloatLanes, kept, out + found);
   }
@@ -47,7 +47,7 @@ std::size_t keep_blocks(const Children* bounds, const Siblings* list, std::size_
 }
 
 PENUMBRA_VECTOR_CLONES
-std::size_t sift_blocks(const EdgePlanes* blocks, const std::int32_t* list, std::size_t count,
+std::size_t test_blocks(const EdgePlanes* blocks, const std::int32_t* list, std::size_t count,
                         const FloatPoint& at, std::int32_t* __restrict places,
                         std::int32_t* __restrict jumps) {
   const FloatPoint p = at;
@@ -72,7 +72,7 @@ EdgeBlocks::EdgeBlocks(const Band& band)
       if (i < band.edges.size())
         blocks_[block].set(lane, band.edges[i], band.extent);
       else
-        blocks_[block].set_idle(lane);
+        blocks_[block].set_none(lane);
     }
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size(), 512), [&](const auto& range) {
@@ -80,8 +80,8 @@ EdgeBlocks::EdgeBlocks(const Band& band)
   });
 }
 
-void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
-                        std::vector<std::uint32_t>& out) const {
+void EdgeBlocks::collect(const std::vector<NodeMask>& list, const Shaft& shaft,
+                         std::vector<std::uint32_t>& out) const {
   out.clear();
   const FloatBox receivers(shaft.middle(), shaft.half());
   for_each_block(list, [&](std::size_t block) {
@@ -93,8 +93,8 @@ void EdgeBlocks::gather(const std::vector<Siblings>& list, const Shaft& shaft,
   });
 }
 
-bool EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, const Receiver& receiver,
-                      std::size_t most, Sifted& out) const {
+bool EdgeBlocks::test_edges(const BandTree& tree, const std::vector<NodeMask>& list,
+                            const TileReceiver& receiver, std::size_t most, TestedEdges& out) const {
   const auto at_least = [](auto& buffer, std::size_t size) { buffer.resize(std::max(buffer.size(), size)); };
   at_least(out.blocks, (list.size() + 1) * kFloatLanes);
   out.looked_into = keep_blocks(tree.blocks(), list.data(), list.size(), ConeTest(receiver, tree.extent()),
@@ -102,12 +102,12 @@ bool EdgeBlocks::sift(const BandTree& tree, const std::vector<Siblings>& list, c
   if (out.looked_into > most) return false;
   at_least(out.places, (out.looked_into + 1) * kFloatLanes);
   at_least(out.jumps, out.places.size());
-  out.count = sift_blocks(blocks_.data(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
+  out.count = test_blocks(blocks_.data(), out.blocks.data(), out.looked_into, FloatPoint(receiver.x),
                           out.places.data(), out.jumps.data());
   return true;
 }
 
-int EdgeBlocks::sift_one(std::size_t i, const Vec3& x) const {
+int EdgeBlocks::test_edge(std::size_t i, const Vec3& x) const {
   Ints jump;
   jumps_of(blocks_[i / kFloatLanes], FloatPoint(x), jump);
   return jump[i % kFloatLanes];

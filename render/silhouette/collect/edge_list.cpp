@@ -54,7 +54,7 @@ PENUMBRA_INLINE std::int32_t kept_jump(float ax, float ay, float az, float bx, f
   const float hair = 0x1p-20f * (r.extent + size);
   const bool above = (wa < -hair) & (wb < -hair);
   const bool below = w > hair;
-  return (above | (below & beside)) ? 0 : (sure ? jump : Sifted::kUnsure);
+  return (above | (below & beside)) ? 0 : (sure ? jump : TestedEdges::kUnsure);
 }
 
 struct Columns {
@@ -66,7 +66,7 @@ struct Columns {
 
 /// jumps[i] of edges first + i: 0 where an edge is dismissed.
 PENUMBRA_VECTOR_CLONES
-void sift_range(const Columns& columns, std::size_t first, int count, const FloatReceiver& receiver,
+void test_range(const Columns& columns, std::size_t first, int count, const FloatReceiver& receiver,
                 std::int32_t* __restrict jumps) {
   const FloatReceiver r = receiver;
   using L = EdgeList;
@@ -146,8 +146,8 @@ std::size_t keep_some(const std::int32_t* places, const std::int32_t* jumps, std
 
 /// Adds to outside[i] where both faces of edge first + i keep their sides over a box, and the jump is 0.
 PENUMBRA_VECTOR_CLONES
-void mark_idle(const Columns& columns, std::size_t first, int count, float x, float y, float z, float hx,
-               float hy, float hz, std::int32_t* __restrict outside) {
+void mark_one_sided(const Columns& columns, std::size_t first, int count, float x, float y, float z, float hx,
+                    float hy, float hz, std::int32_t* __restrict outside) {
   using L = EdgeList;
   const float* const* at = columns.at;
   const float *lx = at[L::kLx] + first, *ly = at[L::kLy] + first, *lz = at[L::kLz] + first;
@@ -238,7 +238,7 @@ void narrow(const EdgeList& list, const Shaft& shaft, std::vector<std::uint32_t>
   for (std::size_t first = 0; first < list.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, list.size() - first);
     mark_beyond(columns, first, static_cast<int>(count), planes, outside);
-    mark_idle(columns, first, static_cast<int>(count), d.x, d.y, d.z, half.x, half.y, half.z, outside);
+    mark_one_sided(columns, first, static_cast<int>(count), d.x, d.y, d.z, half.x, half.y, half.z, outside);
     for (std::size_t i = 0; i < count; ++i) {
       out[found] = static_cast<std::uint32_t>(first + i);
       found += outside[i] == 0 ? 1 : 0;
@@ -247,7 +247,7 @@ void narrow(const EdgeList& list, const Shaft& shaft, std::vector<std::uint32_t>
   out.resize(found);
 }
 
-void sift(const EdgeList& list, const Vec3& x, Sifted& out) {
+void test_edges(const EdgeList& list, const Vec3& x, TestedEdges& out) {
   const Columns columns(list);
   const FloatReceiver receiver = float_receiver(list, x);
   alignas(64) std::int32_t jumps[kChunk];
@@ -256,16 +256,16 @@ void sift(const EdgeList& list, const Vec3& x, Sifted& out) {
   std::size_t found = 0;
   for (std::size_t first = 0; first < list.size(); first += kChunk) {
     const std::size_t count = std::min(kChunk, list.size() - first);
-    sift_range(columns, first, static_cast<int>(count), receiver, jumps);
+    test_range(columns, first, static_cast<int>(count), receiver, jumps);
     found +=
         keep_some(list.places() + first, jumps, count, out.places.data() + found, out.jumps.data() + found);
   }
   out.count = found;
 }
 
-int sift_one(const EdgeList& list, std::size_t i, const Vec3& x) {
+int test_edge(const EdgeList& list, std::size_t i, const Vec3& x) {
   std::int32_t jump = 0;
-  sift_range(Columns(list), i, 1, float_receiver(list, x), &jump);
+  test_range(Columns(list), i, 1, float_receiver(list, x), &jump);
   return jump;
 }
 

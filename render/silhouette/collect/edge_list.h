@@ -1,14 +1,14 @@
-// Accurate rung, between steps 2 and 3: a tile's edges in float, and what dismisses most of them cheaply.
+// Silhouette method, between steps 2 and 3: a tile's edges in float, and what dismisses most of them cheaply.
 //
 // In: a tile's edges. Out: those that some of its receivers, or one of them, must look at in double, with
 // their jumps where floats are sure of them. Both passes go over arrays of floats and vectorise; they dismiss
 // an edge only with a margin that covers rounding. In coordinates that start at the tile's middle an edge
 // whose ends are at most s from there has coordinates off by 2^-24 s; M is the scene's extent in light radii.
 //
-// `narrow` asks the questions of silhouette_gather.h again, for fewer receivers: an edge is dismissed where
+// `narrow` asks the questions of shaft.h again, for fewer receivers: an edge is dismissed where
 // it lies 2^-19 (M + s)(1 + |slope|) beyond a plane of the shaft, or where its faces keep their sides.
 //
-// `sift` asks for one receiver x: projection with w = x.z - p.z, g = x.z/w makes errors at most 2^-24 (s g)(2
+// `test_edges` asks for one receiver x: projection with w = x.z - p.z, g = x.z/w makes errors at most 2^-24 (s g)(2
 // + s/w) times a small number, plus 2^-24 M for x itself. An edge is dismissed where it stays 2^-19 (M + s g
 // (1 + s/w)) outside of the disk, w the smaller one of its ends, or where both faces keep their sides by the
 // planes' tolerances and 2^-20 of the sum's terms.
@@ -83,7 +83,7 @@ class EdgeList {
 void narrow(const EdgeList& list, const Shaft& shaft, std::vector<std::uint32_t>& out);
 
 /// What is left of a list for one receiver.
-struct Sifted {
+struct TestedEdges {
   static constexpr std::int32_t kUnsure = 127;
   std::size_t count = 0;  ///< of edges; arrays may be longer
   std::vector<std::int32_t> places;
@@ -94,8 +94,8 @@ struct Sifted {
 
 /// The edges that a receiver at x must look at, in the list's order. Cost: some 70 flops an edge. Compiled
 /// for several instruction sets with the same result.
-void sift(const EdgeList& list, const Vec3& x, Sifted& out);
+void test_edges(const EdgeList& list, const Vec3& x, TestedEdges& out);
 /// Of edge `i`, computed for it alone without vectors, 0: dismissed, else its jump. Tests compare with it.
-int sift_one(const EdgeList& list, std::size_t i, const Vec3& x);
+int test_edge(const EdgeList& list, std::size_t i, const Vec3& x);
 
 }  // namespace penumbra::detail

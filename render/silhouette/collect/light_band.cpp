@@ -151,16 +151,16 @@ UnitLight::UnitLight(const DiskLight& light)
       per_radius_(1.0 / light.radius) {}
 
 LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const SceneEdges& edges,
-                   std::span<const char> are_idle)
+                   std::span<const char> flags)
     : scene(lit_scene),
       light(unit_light),
-      idle(are_idle),
+      cannot_occlude(flags),
       depth(kLightOffset / edges.scale() * light.per_radius()),
       boxes(scene.objects.size()),
       extent(extent_of(scene, light)) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SceneObject& object = scene.objects[i];
-    if (!object.casts || object.mesh.empty() || (!idle.empty() && idle[i])) continue;
+    if (!object.casts || object.mesh.empty() || (!cannot_occlude.empty() && cannot_occlude[i])) continue;
     boxes[i] = edges.points(i).box_in(light);
     all_in_front = all_in_front && FrontSide(depth)(boxes[i].low);
   }
@@ -179,14 +179,14 @@ static Band empty_band(const LitScene& lit) {
   return band;
 }
 
-Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<const Region> regions) {
+Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<const ReceiverRegion> regions) {
   Band band = empty_band(lit);
   LitCasters casters(lit.boxes.size());
   for (std::size_t i = 0; i < casters.size(); ++i)
     if (lit.casts(i)) casters[i].emplace(lit, i);
-  std::vector<SceneEdge> edges = regions.empty()
-                                     ? scene_edges.band_of(lit.scene.light, lit.idle)
-                                     : scene_edges.band_for(regions, lit.scene, lit.scene.light, lit.idle);
+  std::vector<SceneEdge> edges =
+      regions.empty() ? scene_edges.band_of(lit.scene.light, lit.cannot_occlude)
+                      : scene_edges.band_for(regions, lit.scene, lit.scene.light, lit.cannot_occlude);
   const std::vector<CutFace> cuts = cut_at_light(casters, edges);
   band.cut_edges = cuts.size();
   band.edges = LargeArray<BandEdge>(edges.size() + cuts.size());
@@ -207,9 +207,9 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
     double per_unit() const { return light.per_radius(); }
   };
   Band band = empty_band(lit);
-  const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.scene.light, lit.idle);
+  const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.scene.light, lit.cannot_occlude);
   band.bounds.resize(blocks.size());
-  band.moved.resize(blocks.size());
+  band.deviation.resize(blocks.size());
   band.lanes = LargeArray<MergedLanes>(blocks.size());
   const std::size_t missing =  // of the level's last block
       !blocks.empty() && blocks.back() + 1 == level.block_count()
@@ -224,7 +224,7 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
       std::copy_n(block.sides.begin(), block.count, band.sides.data() + i * MergedBlock::kEdges);
       band.bounds[i] = block.bounds();
       band.lanes[i] = MergedLanes(block, lit.extent);
-      band.moved[i] = static_cast<float>(block.moved * lit.light.per_radius());
+      band.deviation[i] = static_cast<float>(block.deviation * lit.light.per_radius());
     }
   });
   return band;

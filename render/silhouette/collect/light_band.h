@@ -1,4 +1,4 @@
-// Accurate rung, step 1 of 5: the light's frame, and in it every edge that can bound what a receiver sees.
+// Silhouette method, step 1 of 5: the light's frame, and in it every edge that can bound what a receiver sees.
 //
 // In: scene. Out: the silhouette band (volumes/silhouettes.h) of all casters, in a frame where the light is
 // the unit disk in z = 0 and shines towards +z. Whatever lies behind the light's plane does not cast, so
@@ -44,14 +44,14 @@ class UnitLight {
 
 /// What casts in a light's frame. Refers to its arguments.
 struct LitScene {
-  /// Without the casters whose flag in `idle` (one an object, or none) is set; `edges` are the scene's. Cost
-  /// O(vertices), a hundredth of them where neighbours in a mesh's arrays are neighbours in space.
+  /// Without the casters whose flag in `cannot_occlude` (one an object, or none) is set; `edges` are the scene's. Cost
+  /// O(vertices), a hundredth of them where neighbors in a mesh's arrays are neighbors in space.
   LitScene(const Scene& scene, const UnitLight& light, const SceneEdges& edges,
-           std::span<const char> idle = {});
+           std::span<const char> cannot_occlude = {});
 
   const Scene& scene;
   const UnitLight& light;
-  std::span<const char> idle;
+  std::span<const char> cannot_occlude;
   double depth;               ///< of the plane where casters end, in front of the light's; light radii
   std::vector<Bounds> boxes;  ///< one an object, in the light's frame; empty for those that do not cast
   double extent = 1.0;        ///< largest absolute coordinate of the scene, in light radii (at least 1)
@@ -61,18 +61,18 @@ struct LitScene {
 };
 
 struct Band {
-  LargeArray<BandEdge> edges;   ///< neighbours lie close together; those of cut faces come last
+  LargeArray<BandEdge> edges;   ///< neighbors lie close together; those of cut faces come last
   std::vector<Bounds> casters;  ///< box of each, in the light's frame
   double extent = 1.0;          ///< of the scene (LitScene)
   std::size_t faces = 0, mesh_edges = 0, cut_edges = 0;
   /// Of a band of merged edges, for every eight of them: what they and the faces that they stand for lie
   /// within, and how far the worst of them is moved (merged_edges.h; light radii).
   std::vector<BlockBounds> bounds;
-  std::vector<float> moved;
+  std::vector<float> deviation;
   LargeArray<MergedLanes> lanes;  ///< these edges in float
   /// And of each edge what its left and right side stand for.
   std::vector<MergedSides> sides;
-  bool is_merged() const { return !moved.empty(); }
+  bool is_merged() const { return !deviation.empty(); }
   std::size_t bytes() const {
     return edges.size() * sizeof(BandEdge) + sides.size() * sizeof(MergedSides) +
            bounds.size() * (sizeof(BlockBounds) + sizeof(float) + sizeof(MergedLanes));
@@ -82,7 +82,7 @@ struct Band {
 /// Of all casters; `edges` are the scene's. A few edges more than the band has, by rounding. Where there are
 /// `regions` only what matters to them. Cost O(band edges), and O(faces) of casters that are not all in front
 /// of the light. On all cores. Deterministic.
-Band make_band(const LitScene& lit, const SceneEdges& edges, std::span<const Region> regions = {});
+Band make_band(const LitScene& lit, const SceneEdges& edges, std::span<const ReceiverRegion> regions = {});
 /// All of a level's edges. Requires all casters in front of the light.
 Band make_merged_band(const LitScene& lit, const MergedEdges& edges, const MergedLevel& level);
 

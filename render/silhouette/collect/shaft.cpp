@@ -24,7 +24,7 @@ const Directions kDirections;
 
 /// The largest slopes that receivers ask for, direction by direction.
 PENUMBRA_VECTOR_CLONES
-void tighten_slopes(const Receiver* receivers, std::size_t count, double* __restrict slope) {
+void tighten_slopes(const TileReceiver* receivers, std::size_t count, double* __restrict slope) {
   const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
   alignas(64) double most[kShaftSides];
   for (int k = 0; k < kShaftSides; ++k) most[k] = -std::numeric_limits<double>::infinity();
@@ -69,9 +69,9 @@ bool edge_is_beyond(const Vec3& a, const Vec3& b, const double* slope, double ma
 
 }  // namespace
 
-Shaft::Shaft(std::span<const Receiver> receivers, double extent) : margin_(0x1p-44 * extent) {
+Shaft::Shaft(std::span<const TileReceiver> receivers, double extent) : margin_(0x1p-44 * extent) {
   Bounds box;
-  for (const Receiver& r : receivers) box.add(r.x);
+  for (const TileReceiver& r : receivers) box.add(r.x);
   top_ = box.high.z;
   middle_ = box.center();
   half_ = 0.5 * (box.high - box.low);
@@ -82,16 +82,16 @@ Shaft::Shaft(std::span<const Receiver> receivers, double extent) : margin_(0x1p-
   }
 }
 
-void Shaft::tighten(std::span<const Receiver> receivers) {
+void Shaft::tighten(std::span<const TileReceiver> receivers) {
   tighten_slopes(receivers.data(), receivers.size(), slope_.data());
   horizon_ =
-      std::any_of(receivers.begin(), receivers.end(), [](const Receiver& r) { return r.horizon_cuts; });
+      std::any_of(receivers.begin(), receivers.end(), [](const TileReceiver& r) { return r.horizon_cuts; });
   if (horizon_) horizons_ = Horizons(receivers, middle_);
 }
 
-Shaft::Horizons::Horizons(std::span<const Receiver> receivers, const Vec3& middle) {
+Shaft::Horizons::Horizons(std::span<const TileReceiver> receivers, const Vec3& middle) {
   Bounds box;
-  for (const Receiver& r : receivers) {
+  for (const TileReceiver& r : receivers) {
     box.add(r.normal);
     lowest = std::min(lowest, glm::dot(r.normal, r.x - middle));
   }
@@ -103,10 +103,10 @@ Shaft::Side Shaft::side_plane(int k) const {
   return {{kDirections.x[k], kDirections.y[k], -slope_[k]}, -1.0};
 }
 
-Region Shaft::region(std::span<const Receiver> receivers, const UnitLight& light,
-                     const RayFrame& frame) const {
-  static_assert(Region::kPlanes == kShaftSides + 1);
-  std::array<Region::Plane, Region::kPlanes> planes;
+ReceiverRegion Shaft::region(std::span<const TileReceiver> receivers, const UnitLight& light,
+                             const RayFrame& frame) const {
+  static_assert(ReceiverRegion::kPlanes == kShaftSides + 1);
+  std::array<ReceiverRegion::Plane, ReceiverRegion::kPlanes> planes;
   const double scale = light.per_radius() / frame.scale;  // light radii a unit of the frame
   const Vec3 origin = light.point(frame.origin);
   for (int k = 0; k <= kShaftSides; ++k) {
@@ -120,11 +120,11 @@ Region Shaft::region(std::span<const Receiver> receivers, const UnitLight& light
            glm::abs(light.world_direction({0.0, half.y, 0.0})) +
            glm::abs(light.world_direction({0.0, 0.0, half.z}));
   };
-  Region out(planes, light.world_direction(middle_ - origin) / scale, rotated(half_) / scale);
+  ReceiverRegion out(planes, light.world_direction(middle_ - origin) / scale, rotated(half_) / scale);
   const Horizons horizons(receivers, middle_);
   out.add_horizon(light.world_direction(0.5 * (horizons.low + horizons.high)),
                   rotated(0.5 * (horizons.high - horizons.low)), horizons.lowest / scale);
-  for (const Receiver& r : receivers)
+  for (const TileReceiver& r : receivers)
     out.add_receiver(light.world_direction(r.x - origin) / scale, light.world_direction(r.normal));
   return out;
 }

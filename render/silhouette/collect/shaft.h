@@ -1,11 +1,11 @@
-// Accurate rung, step 2 of 5: which band edges a tile of receivers has to look at.
+// Silhouette method, step 2 of 5: which band edges a tile of receivers has to look at.
 //
-// In: the band, and up to 64 neighbouring receivers. Out: the edges that may be a silhouette across the disk
+// In: the band, and up to 64 neighboring receivers. Out: the edges that may be a silhouette across the disk
 // for one of them; what is left out certainly is none. An edge is left out where
 //  - it lies outside of a plane that bounds the receivers and the disk together (`Shaft`),
 //  - it lies below the tangent planes of all receivers, where those cut the disk,
 //  - its faces keep their sides for all receivers, and its jump is 0.
-// The same tests run over a tree of boxes first (silhouette_tree.h), so that the cost of a tile follows what
+// The same tests run over a tree of boxes first (band_tree.h), so that the cost of a tile follows what
 // it keeps.
 #pragma once
 
@@ -25,7 +25,7 @@ inline constexpr int kTile = 8;  ///< pixels a side
 inline constexpr int kShaftSides = 16;
 
 /// A receiver in the light's frame: in front of the light, and with some of it above the horizon.
-struct Receiver {
+struct TileReceiver {
   Vec3 x, normal;
   Chord horizon;  ///< no_horizon where all of the disk is above the tangent plane
   bool horizon_cuts = false;
@@ -39,9 +39,9 @@ struct Receiver {
 class Shaft {
  public:
   /// By the box of the receivers: loose, but cheap.
-  Shaft(std::span<const Receiver> receivers, double extent);
+  Shaft(std::span<const TileReceiver> receivers, double extent);
   /// By the receivers themselves.
-  void tighten(std::span<const Receiver> receivers);
+  void tighten(std::span<const TileReceiver> receivers);
 
   bool misses(const Vec3& low, const Vec3& high) const;
   bool misses(const BandEdge& edge) const;
@@ -54,12 +54,13 @@ class Shaft {
   Side side_plane(int k) const;
   /// The same for the frame of rays, and always with the receivers' horizons: what lies below them all hides
   /// nothing of what is above.
-  Region region(std::span<const Receiver> receivers, const UnitLight& light, const RayFrame& frame) const;
+  ReceiverRegion region(std::span<const TileReceiver> receivers, const UnitLight& light,
+                        const RayFrame& frame) const;
   const Vec3& middle() const { return middle_; }
   const Vec3& half() const { return half_; }
   struct Horizons {
     Horizons() = default;
-    Horizons(std::span<const Receiver> receivers, const Vec3& middle);
+    Horizons(std::span<const TileReceiver> receivers, const Vec3& middle);
     Vec3 low{0.0}, high{0.0};  ///< box of all receivers' normals
     double lowest = 0.0;       ///< the least normal·(receiver - middle)
   };

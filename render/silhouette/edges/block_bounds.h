@@ -1,4 +1,4 @@
-// Bounds of eight neighbouring blocks of edges in float, and on which sides of their faces points lie.
+// Bounds of eight neighboring blocks of edges in float, and on which sides of their faces points lie.
 //
 // All is in float with a margin of 2^-17 M, M the largest coordinate: a sum here has a dozen terms of at most
 // 7 M, each off by 2^-24 of that.

@@ -74,8 +74,8 @@ void for_each_group(const std::vector<BlockBounds>& nodes, const Body& body) {
 }  // namespace
 
 PENUMBRA_VECTOR_CLONES
-std::size_t keep(const SidesTest& test, const Children* nodes, const Siblings* in, std::size_t count,
-                 Siblings* out) {
+std::size_t keep(const SidesTest& test, const Children* nodes, const NodeMask* in, std::size_t count,
+                 NodeMask* out) {
   return keep_with(test, nodes, in, count, out);
 }
 
@@ -117,8 +117,8 @@ BoundsTree::BoundsTree(std::vector<BlockBounds> nodes, double extent) : extent_(
   }
 }
 
-void BoundsTree::narrow(const std::vector<Siblings>& list, const SidesTest& test,
-                        std::vector<Siblings>& out) const {
+void BoundsTree::narrow(const std::vector<NodeMask>& list, const SidesTest& test,
+                        std::vector<NodeMask>& out) const {
   out.resize(list.size());
   if (!list.empty()) out.resize(keep(test, blocks(), list.data(), list.size(), out.data()));
 }
@@ -129,9 +129,9 @@ std::size_t BoundsTree::bytes() const {
   return sum;
 }
 
-std::size_t count_blocks(const std::vector<Siblings>& list) {
+std::size_t count_blocks(const std::vector<NodeMask>& list) {
   std::size_t sum = 0;
-  for (const Siblings& s : list) sum += static_cast<std::size_t>(std::popcount(s.kept));
+  for (const NodeMask& s : list) sum += static_cast<std::size_t>(std::popcount(s.kept));
   return sum;
 }
 

@@ -1,4 +1,4 @@
-// Bounds of eight neighbouring blocks of edges a node, and a tree of them.
+// Bounds of eight neighboring blocks of edges a node, and a tree of them.
 //
 // In: for each block of eight edges its box, and of their faces' planes a box of normals and the range of
 // values at the middle. Out: a tree of eight children a node, in float with the margins of
@@ -17,7 +17,7 @@
 namespace penumbra::detail {
 
 /// Some of eight siblings: bit i of `kept` is child 8 parent + i.
-struct Siblings {
+struct NodeMask {
   std::uint32_t parent;
   std::uint32_t kept;
 };
@@ -25,13 +25,13 @@ struct Siblings {
 /// Calls visit(block) for every one.
 template <class List, class Visit>
 void for_each_block(const List& list, const Visit& visit) {
-  for (const Siblings& s : list)
+  for (const NodeMask& s : list)
     for (std::uint32_t kept = s.kept; kept != 0; kept &= kept - 1)
       visit(std::size_t{s.parent} * kFloatLanes + static_cast<std::size_t>(std::countr_zero(kept)));
 }
 
 /// How many blocks.
-std::size_t count_blocks(const std::vector<Siblings>& list);
+std::size_t count_blocks(const std::vector<NodeMask>& list);
 
 /// What is known of a block, or of several together. An edge with one face only has no side: `near` is
 /// infinite then.
@@ -43,14 +43,14 @@ struct BlockBounds {
 
 /// Leaves of `in` what the test does not drop; returns how many there are. Every test has one such function,
 /// compiled for several instruction sets.
-std::size_t keep(const SidesTest& test, const Children* nodes, const Siblings* in, std::size_t count,
-                 Siblings* out);
+std::size_t keep(const SidesTest& test, const Children* nodes, const NodeMask* in, std::size_t count,
+                 NodeMask* out);
 template <class Test>
-PENUMBRA_INLINE std::size_t keep_with(const Test& test, const Children* nodes, const Siblings* in,
-                                      std::size_t count, Siblings* out) {
+PENUMBRA_INLINE std::size_t keep_with(const Test& test, const Children* nodes, const NodeMask* in,
+                                      std::size_t count, NodeMask* out) {
   std::size_t found = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Siblings s = in[i];
+    const NodeMask s = in[i];
     const std::uint32_t kept = s.kept & ~test.dropped(nodes[s.parent]);
     out[found] = {s.parent, kept};
     found += kept != 0 ? 1 : 0;
@@ -73,19 +73,19 @@ class BoundsTree {
   double extent() const { return extent_; }
   /// Blocks that the test does not drop, nor what they lie in, ascending.
   template <class Test>
-  void gather(const Test& test, std::vector<Siblings>& out) const;
-  /// Blocks whose groups of eight the test does not drop, as many as `gather` finds or more.
+  void collect(const Test& test, std::vector<NodeMask>& out) const;
+  /// Blocks whose groups of eight the test does not drop, as many as `collect` finds or more.
   template <class Test>
   std::size_t count_at_most(const Test& test) const;
   /// Of these blocks those that the test does not drop.
-  void narrow(const std::vector<Siblings>& list, const SidesTest& test, std::vector<Siblings>& out) const;
+  void narrow(const std::vector<NodeMask>& list, const SidesTest& test, std::vector<NodeMask>& out) const;
   /// Bounds of the blocks, by their parents.
   const Children* blocks() const { return levels_.empty() ? nullptr : levels_[0].data(); }
   std::size_t bytes() const;
 
  private:
   template <class Test>
-  void gather_down_to(std::size_t last, const Test& test, std::vector<Siblings>& out) const;
+  void collect_down_to(std::size_t last, const Test& test, std::vector<NodeMask>& out) const;
 
   double extent_ = 1.0;
   Bounds box_;
@@ -93,31 +93,31 @@ class BoundsTree {
 };
 
 template <class Test>
-void BoundsTree::gather(const Test& test, std::vector<Siblings>& out) const {
-  gather_down_to(0, test, out);
+void BoundsTree::collect(const Test& test, std::vector<NodeMask>& out) const {
+  collect_down_to(0, test, out);
 }
 
 template <class Test>
 std::size_t BoundsTree::count_at_most(const Test& test) const {
   if (levels_.size() < 2) return levels_.size() * kFanOut;
-  std::vector<Siblings> groups;
-  gather_down_to(1, test, groups);
+  std::vector<NodeMask> groups;
+  collect_down_to(1, test, groups);
   return count_blocks(groups) * kFanOut;
 }
 
 template <class Test>
-void BoundsTree::gather_down_to(std::size_t last, const Test& test, std::vector<Siblings>& out) const {
+void BoundsTree::collect_down_to(std::size_t last, const Test& test, std::vector<NodeMask>& out) const {
   constexpr std::uint32_t kAll = (1u << kFanOut) - 1;
   out.clear();
   if (levels_.empty()) return;
-  std::vector<Siblings> kept;
+  std::vector<NodeMask> kept;
   out.push_back({0, kAll});
   for (std::size_t level = levels_.size(); level-- > last;) {
     kept.resize(out.size());
     kept.resize(keep(test, levels_[level].data(), out.data(), out.size(), kept.data()));
     if (level == last) return std::swap(out, kept);
     out.clear();
-    for (const Siblings& s : kept)
+    for (const NodeMask& s : kept)
       for (std::uint32_t bits = s.kept; bits != 0; bits &= bits - 1)
         out.push_back({s.parent * static_cast<std::uint32_t>(kFanOut) +
                            static_cast<std::uint32_t>(std::countr_zero(bits)),

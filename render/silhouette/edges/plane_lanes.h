@@ -30,7 +30,7 @@ struct EdgePlanes {
     right.set(lane, edge.right, extent);
   }
   /// No edge: two faces that look the same way wherever they are seen from, however large what sees them.
-  void set_idle(std::size_t lane) {
+  void set_none(std::size_t lane) {
     const FacePlane front{Vec3(0.0), 1e30, -1.0};
     left.set(lane, front, 1.0);
     right.set(lane, front, 1.0);

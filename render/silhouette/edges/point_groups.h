@@ -16,7 +16,7 @@ class PointGroups {
   /// Refers to the points; those that follow on each other make a group. Cost O(points), on all cores.
   explicit PointGroups(std::span<const Vec3> points);
   /// The smallest box in the light's frame. Cost O(groups) and the points of those that reach its sides, few
-  /// where neighbours in the array are neighbours in space.
+  /// where neighbors in the array are neighbors in space.
   Bounds box_in(const UnitLight& light) const;
   std::size_t bytes() const { return groups_.size() * sizeof(Bounds); }
 

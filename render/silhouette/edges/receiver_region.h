@@ -13,17 +13,17 @@
 namespace penumbra::detail {
 
 /// Drops blocks outside of a convex region, and those whose planes have one sign for all receivers.
-class Region {
+class ReceiverRegion {
  public:
   static constexpr std::size_t kPlanes = 17;
   struct Plane {
     Vec3 normal;  ///< unit
     double offset;
   };
-  Region() = default;
+  ReceiverRegion() = default;
   /// Planes are more than 0 outside; `middle` and `half`: the box of the receivers. For coordinates up to 1,
   /// and for receivers up to 4.
-  Region(const std::array<Plane, kPlanes>& planes, const Vec3& middle, const Vec3& half)
+  ReceiverRegion(const std::array<Plane, kPlanes>& planes, const Vec3& middle, const Vec3& half)
       : receivers_(middle, half + kBoundsGrain) {
     for (std::size_t k = 0; k < kPlanes; ++k)
       planes_[k] = FloatPlane(planes[k].normal, planes[k].offset - 4.0 * kBoundsGrain);
@@ -75,9 +75,9 @@ class Region {
   std::vector<Point> points_;
 };
 
-std::size_t keep(const Region& test, const Children* nodes, const Siblings* in, std::size_t count,
-                 Siblings* out);
+std::size_t keep(const ReceiverRegion& test, const Children* nodes, const NodeMask* in, std::size_t count,
+                 NodeMask* out);
 /// Those of eight siblings that a receiver may have to look at.
-std::uint32_t kept_by(const Region::Point& receiver, const Children* nodes, const Siblings& siblings);
+std::uint32_t kept_by(const ReceiverRegion::Point& receiver, const Children* nodes, const NodeMask& mask);
 
 }  // namespace penumbra::detail

@@ -42,7 +42,7 @@ LargeArray<Placed> edges_of(const Scene& scene) {
   return out;
 }
 
-LargeArray<SceneEdge> neighbours_together(LargeArray<Placed> edges) {
+LargeArray<SceneEdge> neighbors_together(LargeArray<Placed> edges) {
   order_by_place(edges.data(), edges.data() + edges.size(), kLanes);
   LargeArray<SceneEdge> out(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) out[i] = edges[i].edge;
@@ -92,7 +92,7 @@ FloatDisk::FloatDisk(const DiskLight& light, const Vec3& origin, double scale)
 SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
     : origin_(origin),
       scale_(scale),
-      edges_(neighbours_together(edges_of(scene))),
+      edges_(neighbors_together(edges_of(scene))),
       planes_((edges_.size() + kLanes - 1) / kLanes) {
   const auto to_frame = [&](const Vec3& p) { return (p - origin) * scale; };
   std::vector<MeshArrays> meshes;
@@ -108,7 +108,7 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
     LocalPlanes& planes = planes_[block];
     planes.origin = FloatBox(edges[0].a, Vec3(0.0)).middle;
     for (std::size_t lane = 0; lane < kLanes; ++lane)
-      lane < count ? planes.set(lane, edges[lane]) : planes.planes.set_idle(lane);
+      lane < count ? planes.set(lane, edges[lane]) : planes.planes.set_none(lane);
     bounds[block] = bounds_of_edges(edges.data(), edges.data() + count);
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, planes_.size(), 256), [&](const auto& range) {
@@ -119,24 +119,25 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
     points_.push_back(o.casts ? PointGroups(o.mesh.positions()) : PointGroups());
 }
 
-void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
+void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<const char> cannot_occlude,
                            std::vector<SceneEdge>& out) const {
   for (; edges != 0; edges &= edges - 1) {
     const SceneEdge& e = edges_[block * kLanes + static_cast<std::size_t>(std::countr_zero(edges))];
-    if (idle.empty() || !idle[e.object]) out.push_back(e);
+    if (cannot_occlude.empty() || !cannot_occlude[e.object]) out.push_back(e);
   }
 }
 
-std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light, std::span<const char> idle) const {
+std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light,
+                                           std::span<const char> cannot_occlude) const {
   const FloatDisk disk(light, origin_, scale_);
-  std::vector<Siblings> parents;
-  tree_.gather(SidesTest(disk.box), parents);
+  std::vector<NodeMask> parents;
+  tree_.collect(SidesTest(disk.box), parents);
   constexpr std::size_t kRun = 256;
   std::vector<std::vector<SceneEdge>> runs((parents.size() + kRun - 1) / kRun);
   tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t run) {
     const std::size_t first = run * kRun, count = std::min(kRun, parents.size() - first);
     for_each_block(std::span(parents).subspan(first, count), [&](std::size_t block) {
-      add_block(block, may_be_in_band(planes_[block], disk), idle, runs[run]);
+      add_block(block, may_be_in_band(planes_[block], disk), cannot_occlude, runs[run]);
     });
   });
   std::vector<SceneEdge> out;
@@ -151,18 +152,18 @@ std::size_t SceneEdges::size_of_band(const DiskLight& light) const {
 /// What a region's receivers have to look at. Which edges have their faces on both sides of a receiver is
 /// asked in float; whether they lie below its tangent plane is not, since receivers lie so little above their
 /// surfaces. Planes and ends of edges lie anywhere in memory: they are sent for before they are needed.
-void SceneEdges::mark_needed(const Region& region, const Scene& scene,
+void SceneEdges::mark_needed(const ReceiverRegion& region, const Scene& scene,
                              std::vector<std::atomic<std::uint8_t>>& needed) const {
   struct Question {
     std::size_t block, receiver;
     std::uint32_t lanes;
   };
-  std::vector<Siblings> parents;
-  tree_.gather(region, parents);
+  std::vector<NodeMask> parents;
+  tree_.collect(region, parents);
   std::vector<Question> asked, questions;
   for (std::size_t r = 0; r < region.receivers().size(); ++r)
-    for (const Siblings& s : parents)
-      for_each_block(std::array{Siblings{s.parent, kept_by(region.receivers()[r], tree_.blocks(), s)}},
+    for (const NodeMask& s : parents)
+      for_each_block(std::array{NodeMask{s.parent, kept_by(region.receivers()[r], tree_.blocks(), s)}},
                      [&](std::size_t block) {
                        for (std::size_t line = 0; line < sizeof(LocalPlanes); line += kCacheLine)
                          __builtin_prefetch(reinterpret_cast<const char*>(&planes_[block]) + line);
@@ -189,21 +190,23 @@ void SceneEdges::mark_needed(const Region& region, const Scene& scene,
   });
   for_each_edge([&](const Question& q, std::uint32_t lane, const TriangleMesh& mesh, EdgeId id) {
     const Edge& e = mesh.edges()[index(id)];
-    const Region::Point& r = region.receivers()[q.receiver];
+    const ReceiverRegion::Point& r = region.receivers()[q.receiver];
     const auto is_below = [&](VertexId v) { return r.is_below((mesh.position(v) - origin_) * scale_); };
     if (!is_below(e.from) || !is_below(e.to)) needed[q.block] |= static_cast<std::uint8_t>(lane);
   });
 }
 
-std::vector<SceneEdge> SceneEdges::band_for(std::span<const Region> regions, const Scene& scene,
-                                            const DiskLight& light, std::span<const char> idle) const {
+std::vector<SceneEdge> SceneEdges::band_for(std::span<const ReceiverRegion> regions, const Scene& scene,
+                                            const DiskLight& light,
+                                            std::span<const char> cannot_occlude) const {
   std::vector<std::atomic<std::uint8_t>> needed(planes_.size());
   tbb::parallel_for(std::size_t{0}, regions.size(),
                     [&](std::size_t i) { mark_needed(regions[i], scene, needed); });
   const FloatDisk disk(light, origin_, scale_);
   std::vector<SceneEdge> out;
   for (std::size_t block = 0; block < needed.size(); ++block)
-    if (needed[block] != 0) add_block(block, needed[block] & may_be_in_band(planes_[block], disk), idle, out);
+    if (needed[block] != 0)
+      add_block(block, needed[block] & may_be_in_band(planes_[block], disk), cannot_occlude, out);
   return out;
 }
 

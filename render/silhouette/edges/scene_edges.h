@@ -1,7 +1,7 @@
 // All edges of a scene's casters, and which of them may belong to a light's silhouette band.
 //
 // In: casters, once. Out: for any disk light, the edges of its band (volumes/silhouettes.h) without a look at
-// every face. Edges that lie close together are neighbours, eight a block (halved across the longest side,
+// every face. Edges that lie close together are neighbors, eight a block (halved across the longest side,
 // over and over); over the blocks stands a hierarchy of boxes and of the planes of their faces
 // (bounds_tree.h). Where all faces of a block look at the light, or all away from it, none of its edges is in
 // the band; and the share of those blocks grows with the mesh.
@@ -45,14 +45,14 @@ class SceneEdges {
   /// In the frame (p - origin) · scale, which takes all of the scene into [-1, 1]. Cost O(E log E), most of
   /// it on all cores; some 60 bytes an edge.
   SceneEdges(const Scene& scene, const Vec3& origin, double scale);
-  /// Those of the light's band, neighbours close together, but for objects whose flag in `idle` (one an
+  /// Those of the light's band, neighbors close together, but for objects whose flag in `cannot_occlude` (one an
   /// object, or none) is set. Cost O(band + √E), on all cores.
-  std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> idle) const;
+  std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> cannot_occlude) const;
   /// At least as many as these, within a few times. Cost O(√E) where the surface is fine.
   std::size_t size_of_band(const DiskLight& light) const;
   /// Of these what may matter to the receivers of some regions. Cost: some 10 μs a region on a fine surface.
-  std::vector<SceneEdge> band_for(std::span<const Region> regions, const Scene& scene, const DiskLight& light,
-                                  std::span<const char> idle) const;
+  std::vector<SceneEdge> band_for(std::span<const ReceiverRegion> regions, const Scene& scene,
+                                  const DiskLight& light, std::span<const char> cannot_occlude) const;
   std::size_t size() const { return edges_.size(); }
   /// Of one object that casts, by its index in the scene.
   const PointGroups& points(std::size_t object) const { return points_[object]; }
@@ -60,10 +60,10 @@ class SceneEdges {
   std::size_t bytes() const;
 
  private:
-  void mark_needed(const Region& region, const Scene& scene,
+  void mark_needed(const ReceiverRegion& region, const Scene& scene,
                    std::vector<std::atomic<std::uint8_t>>& needed) const;
-  /// Some edges of a block, bit by bit, but for those of idle objects.
-  void add_block(std::size_t block, std::uint32_t edges, std::span<const char> idle,
+  /// Some edges of a block, bit by bit, but for those of objects that cannot occlude.
+  void add_block(std::size_t block, std::uint32_t edges, std::span<const char> cannot_occlude,
                  std::vector<SceneEdge>& out) const;
 
   Vec3 origin_;

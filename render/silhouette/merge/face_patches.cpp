@@ -198,7 +198,7 @@ FacePatch FacePatches::patch(std::size_t first, std::size_t last) const {
 }
 
 /// Of the flats first to last, where that keeps the tolerance; its faces get its place in `patches`.
-bool FacePatches::add_patch(std::size_t first, std::size_t last, double tolerance, Cut& out,
+bool FacePatches::add_patch(std::size_t first, std::size_t last, double tolerance, Partition& out,
                             std::vector<FacePatch>& patches) const {
   const FacePatch whole = patch(begins_[first], begins_[last]);
   if (!(whole.error <= tolerance)) return false;
@@ -209,7 +209,7 @@ bool FacePatches::add_patch(std::size_t first, std::size_t last, double toleranc
 }
 
 /// The node's patch, or those of its parts, or of its flats.
-void FacePatches::add(std::size_t level, std::size_t node, double tolerance, Cut& out,
+void FacePatches::add(std::size_t level, std::size_t node, double tolerance, Partition& out,
                       std::vector<FacePatch>& patches) const {
   const std::size_t first = (node * kFewest) << level, last = last_of(level, node);
   if (first >= last) return;
@@ -224,8 +224,8 @@ void FacePatches::add(std::size_t level, std::size_t node, double tolerance, Cut
   }
 }
 
-FacePatches::Cut FacePatches::cut(double tolerance) const {
-  Cut out;
+FacePatches::Partition FacePatches::partition(double tolerance) const {
+  Partition out;
   out.side.resize(order_.size());
   const std::size_t top = errors_.size() - 1, nodes = errors_[top].size();
   std::vector<std::vector<FacePatch>> patches(nodes);

@@ -1,4 +1,4 @@
-// Patches: neighbouring faces that a receiver may take for one, and how far that moves a silhouette.
+// Patches: neighboring faces that a receiver may take for one, and how far that moves a silhouette.
 //
 // In: a mesh, once. Out: for any tolerance the largest groups of faces that keep it. A patch counts as
 // looking at x where its mean plane does, all of it. Where it is seen edge-on, some of its faces look the
@@ -42,7 +42,7 @@ class FacePatches {
   /// Cost O(F log F), on all cores; some 100 bytes a face.
   explicit FacePatches(const TriangleMesh& mesh);
 
-  struct Cut {
+  struct Partition {
     std::vector<FacePatch> patches;
     std::vector<std::uint32_t> side;  ///< of each face: its patch's number + the number of faces, or its own
                                       ///< number where it stays alone
@@ -50,8 +50,8 @@ class FacePatches {
   /// The largest patches with an error of `tolerance` or less, whose faces' normals differ from their mean's
   /// by less than half (so that no closed surface is within one). Those of a larger tolerance are, but for
   /// rounding, unions of those of a smaller one. Cost O(F) or a little more, on all cores.
-  Cut cut(double tolerance) const;
-  /// About as many patches and single faces as `cut` would leave, or fewer. Cost O(as many).
+  Partition partition(double tolerance) const;
+  /// About as many patches and single faces as `partition` would leave, or fewer. Cost O(as many).
   std::size_t count_parts(double tolerance) const;
 
  private:
@@ -61,9 +61,9 @@ class FacePatches {
   std::size_t flats() const { return begins_.size() - 1; }
   /// The first flat behind a node.
   std::size_t last_of(std::size_t level, std::size_t node) const;
-  bool add_patch(std::size_t first, std::size_t last, double tolerance, Cut& out,
+  bool add_patch(std::size_t first, std::size_t last, double tolerance, Partition& out,
                  std::vector<FacePatch>& patches) const;
-  void add(std::size_t level, std::size_t node, double tolerance, Cut& out,
+  void add(std::size_t level, std::size_t node, double tolerance, Partition& out,
            std::vector<FacePatch>& patches) const;
   std::size_t count_parts(std::size_t level, std::size_t node, double tolerance) const;
 

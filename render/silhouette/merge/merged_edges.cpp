@@ -53,7 +53,7 @@ class Merger {
   std::size_t count_parts(double tolerance) const {
     return tree_ ? tree_->count_parts(tolerance) : mesh_.triangles().size();
   }
-  double moved(const Chain& c) const {
+  double deviation(const Chain& c) const {
     return std::max(error_of(c.left), error_of(c.right)) +
            swept_width(c.left, c.right, c.swept, c.from, c.to);
   }
@@ -70,10 +70,10 @@ class Merger {
   /// Merges faces, then chains of edges, to a larger tolerance than before.
   void merge(double tolerance) {
     if (!tree_) return;
-    FacePatches::Cut cut = tree_->cut(tolerance);
+    FacePatches::Partition partition = tree_->partition(tolerance);
     const auto merged = [&](std::uint32_t side) {
       if (side == MergedEdge::kNoSide) return side;
-      return cut.side[side < faces() ? side : index(patches_[side - faces()].first)];
+      return partition.side[side < faces() ? side : index(patches_[side - faces()].first)];
     };
     std::vector<Chain> edges;
     const auto add = [&](Chain c) {
@@ -86,7 +86,7 @@ class Merger {
       for (const Edge& e : mesh_.edges()) add(chain_of(e));
     else
       for (const Chain& c : chains_) add(c);
-    patches_ = std::move(cut.patches);
+    patches_ = std::move(partition.patches);
     join(edges, tolerance);
   }
 
@@ -213,8 +213,8 @@ struct PlacedEdge {
   MergedEdge edge;
 };
 
-std::vector<MergedEdge> neighbours_together(const Scene& scene,
-                                            const std::vector<std::optional<Merger>>& mergers) {
+std::vector<MergedEdge> neighbors_together(const Scene& scene,
+                                           const std::vector<std::optional<Merger>>& mergers) {
   std::vector<PlacedEdge> placed;
   for (std::uint32_t object = 0; object < mergers.size(); ++object) {
     if (!mergers[object]) continue;
@@ -224,7 +224,7 @@ std::vector<MergedEdge> neighbours_together(const Scene& scene,
       const Vec3 middle = 0.5 * mesh.position(from) + 0.5 * mesh.position(to);
       placed.push_back(
           {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)},
-           {object, from, to, c.left, c.right, static_cast<float>(mergers[object]->moved(c)),
+           {object, from, to, c.left, c.right, static_cast<float>(mergers[object]->deviation(c)),
             static_cast<float>(1.0001 * mergers[object]->margin(c))}});
     }
   }
@@ -241,13 +241,13 @@ MergedLevel make_level(const Scene& scene, const std::vector<std::optional<Merge
   for (std::uint32_t object = 0; object < mergers.size(); ++object) {
     if (mergers[object]) level.patches[object] = mergers[object]->patches();
   }
-  level.edges = neighbours_together(scene, mergers);
+  level.edges = neighbors_together(scene, mergers);
   double sum = 0.0, count = 0.0;
   for (const MergedEdge& e : level.edges) {
-    sum += e.moved;
-    count += e.moved > 0.0f ? 1.0 : 0.0;
+    sum += e.deviation;
+    count += e.deviation > 0.0f ? 1.0 : 0.0;
   }
-  level.moved = sum / std::max(1.0, count);
+  level.deviation = sum / std::max(1.0, count);
   std::vector<BlockBounds> bounds(level.block_count());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bounds.size(), 256), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
@@ -334,15 +334,15 @@ MergedEdges::MergedEdges(const Scene& scene, const Vec3& origin, double scale)
 }
 
 std::vector<std::uint32_t> MergedEdges::blocks_of(const MergedLevel& level, const DiskLight& light,
-                                                  std::span<const char> idle) const {
-  std::vector<Siblings> parents;
-  level.tree.gather(SidesTest(FloatDisk(light, origin_, scale_).box), parents);
+                                                  std::span<const char> cannot_occlude) const {
+  std::vector<NodeMask> parents;
+  level.tree.collect(SidesTest(FloatDisk(light, origin_, scale_).box), parents);
   std::vector<std::uint32_t> out;
   const auto casts = [&](std::size_t block) {
     const std::size_t first = block * MergedBlock::kEdges;
     const std::size_t last = std::min(first + MergedBlock::kEdges, level.edges.size());
     for (std::size_t i = first; i < last; ++i)
-      if (idle.empty() || !idle[level.edges[i].object]) return true;
+      if (cannot_occlude.empty() || !cannot_occlude[level.edges[i].object]) return true;
     return false;
   };
   for_each_block(parents, [&](std::size_t block) {

@@ -3,7 +3,7 @@
 // In: casters, once. Out: for tolerances that double from level to level, the edges between patches
 // (face_patches.h), with chains of edges between the same two patches replaced by one from end to end. The
 // surface stays as closed as it was, since every chain keeps its ends. A level moves the silhouette that x
-// sees at p by at most `moved` · |x - p| · (what x sees at p is magnified by), not counting where it moves
+// sees at p by at most `deviation` · |x - p| · (what x sees at p is magnified by), not counting where it moves
 // within the surface: a chain between patches that look almost the same way is seen edge-on, so that of the
 // area S between chain and edge only the part across the surface counts, and of that along it as much as the
 // patches' normals differ.
@@ -30,7 +30,7 @@ struct MergedEdge {
   std::uint32_t object;       ///< index in the scene
   VertexId from, to;          ///< of its mesh
   std::uint32_t left, right;  ///< as in FacePatches::Cut::side; kNoSide without a right one
-  float moved = 0.0f;         ///< see above; scene units
+  float deviation = 0.0f;     ///< see above; scene units
   float margin = 0.0f;        ///< what it stands for is seen at most that far beside it; scene units
 };
 
@@ -62,7 +62,7 @@ struct MergedBlock {
   std::size_t count = 0;
   std::array<BandEdge, kEdges> edges;
   std::array<MergedSides, kEdges> sides;
-  float moved = 0.0f;  ///< the largest; scene units
+  float deviation = 0.0f;  ///< the largest; scene units
   /// Each edge's box.
   void make_boxes();
   /// Of the edges and of all faces that they stand for; requires boxes.
@@ -70,10 +70,10 @@ struct MergedBlock {
 };
 
 struct MergedLevel {
-  std::vector<MergedEdge> edges;                ///< neighbours lie close together
+  std::vector<MergedEdge> edges;                ///< neighbors lie close together
   std::vector<std::vector<FacePatch>> patches;  ///< of each object
   BoundsTree tree;                              ///< over the blocks, in the frame of rays
-  double moved = 0.0;                           ///< of those edges that are moved the mean; scene units
+  double deviation = 0.0;                       ///< of those edges that are moved the mean; scene units
 
   /// Block i in a frame with point(p), direction(d) and per_unit(), with coordinates up to `extent`.
   template <class Frame>
@@ -94,9 +94,9 @@ class MergedEdges {
   /// Coarsest last; none where merging does not pay.
   const std::vector<MergedLevel>& levels() const { return levels_; }
   /// Blocks of a level with faces of which the light may see both sides, ascending; without those of objects
-  /// whose flag in `idle` (one an object, or none) is set.
+  /// whose flag in `cannot_occlude` (one an object, or none) is set.
   std::vector<std::uint32_t> blocks_of(const MergedLevel& level, const DiskLight& light,
-                                       std::span<const char> idle) const;
+                                       std::span<const char> cannot_occlude) const;
   std::size_t bytes() const;
 
  private:
@@ -132,7 +132,7 @@ MergedBlock MergedLevel::block(const Scene& scene, std::size_t i, const Frame& f
                     side(scene, e, e.left, frame, extent, out.sides[k].left),
                     side(scene, e, e.right, frame, extent, out.sides[k].right)};
     out.sides[k].margin = e.margin * frame.per_unit();
-    out.moved = std::max(out.moved, e.moved);
+    out.deviation = std::max(out.deviation, e.deviation);
   }
   out.make_boxes();
   return out;

@@ -71,7 +71,7 @@ FloatShaft::FloatShaft(const Shaft& shaft, double extent)
   for (int k = 0; k < 3; ++k) middle[k] = static_cast<float>(shaft.middle()[k]);
 }
 
-FloatEye::FloatEye(const Receiver& receiver, double extent)
+FloatEye::FloatEye(const TileReceiver& receiver, double extent)
     : per_z(static_cast<float>(1.0 / receiver.x.z)), grain(static_cast<float>(kBoundsGrain * extent)) {
   for (int k = 0; k < 3; ++k) at[k] = static_cast<float>(receiver.x[k]);
 }

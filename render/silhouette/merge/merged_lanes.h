@@ -16,7 +16,7 @@
 namespace penumbra::detail {
 
 class Shaft;
-struct Receiver;
+struct TileReceiver;
 
 struct alignas(kFloatLanes * sizeof(float)) MergedLanes {
   std::array<Floats, 3> a, b;
@@ -42,7 +42,7 @@ struct FloatShaft {
   float size;  ///< half the diagonal of the receivers' box
 };
 struct FloatEye {
-  FloatEye(const Receiver& receiver, double extent);
+  FloatEye(const TileReceiver& receiver, double extent);
   std::array<float, 3> at;
   float per_z, grain;
 };

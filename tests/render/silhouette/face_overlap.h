@@ -68,7 +68,7 @@ class FaceOverlap {
   static glm::dvec2 seen(const Vec3& p, const Vec3& x) {
     return glm::dvec2(x) + (glm::dvec2(p) - glm::dvec2(x)) * (x.z / (x.z - p.z));
   }
-  /// Of the segment from the disk's centre, squared.
+  /// Of the segment from the disk's center, squared.
   static double distance2(const glm::dvec2& a, const glm::dvec2& b) {
     const glm::dvec2 s = b - a;
     const double length2 = glm::dot(s, s);

@@ -11,7 +11,7 @@
 #include "penumbra/mesh/shapes.h"
 #include "render/rays/ray_scene.h"
 #include "render/silhouette/areas/projected_edges.h"
-#include "render/silhouette/merge/merged_certificate.h"
+#include "render/silhouette/collect/merged_certificate.h"
 #include "render/silhouette/silhouette_visibility.h"
 #include "tests/render/render_support.h"
 #include "tests/render/silhouette/subdivide.h"
@@ -68,10 +68,11 @@ struct Face {
   Vec3 normal, corner;
 };
 
-std::vector<Face> faces_of(const TriangleMesh& mesh, const FacePatches::Cut& cut, std::uint32_t patch) {
+std::vector<Face> faces_of(const TriangleMesh& mesh, const FacePatches::Partition& partition,
+                           std::uint32_t patch) {
   std::vector<Face> out;
-  for (std::size_t i = 0; i < cut.side.size(); ++i) {
-    if (cut.side[i] != patch + cut.side.size()) continue;
+  for (std::size_t i = 0; i < partition.side.size(); ++i) {
+    if (partition.side[i] != patch + partition.side.size()) continue;
     const auto& [a, b, c] = mesh.triangles()[i];
     const Vec3 p = mesh.positions()[a], n = glm::cross(mesh.positions()[b] - p, mesh.positions()[c] - p);
     out.push_back({0.5 * glm::length(n), glm::normalize(n), p});
@@ -100,12 +101,12 @@ TEST(FacePatches, ErrorsHoldFromEverywhere) {
     const FacePatches all(mesh);
     const double size = bounds_of(mesh.positions()).radius();
     for (const double tolerance : {1e-5, 1e-4, 1e-3, 1e-2}) {
-      const FacePatches::Cut cut = all.cut(tolerance * size);
-      for (std::uint32_t i = 0; i < cut.patches.size();
-           i += 1 + static_cast<std::uint32_t>(cut.patches.size()) / 40) {
-        const FacePatch& patch = cut.patches[i];
+      const FacePatches::Partition partition = all.partition(tolerance * size);
+      for (std::uint32_t i = 0; i < partition.patches.size();
+           i += 1 + static_cast<std::uint32_t>(partition.patches.size()) / 40) {
+        const FacePatch& patch = partition.patches[i];
         ASSERT_LE(patch.error, tolerance * size);
-        const std::vector<Face> faces = faces_of(mesh, cut, i);
+        const std::vector<Face> faces = faces_of(mesh, partition, i);
         ASSERT_GE(faces.size(), 2u) << name;
         ++patches;
         for (int k = 0; k < 20; ++k) {
@@ -122,13 +123,14 @@ TEST(FacePatches, ErrorsHoldFromEverywhere) {
 
 TEST(FacePatches, HoldTheirFaces) {
   for (const auto& [name, mesh] : meshes(5)) {
-    const FacePatches::Cut cut = FacePatches(mesh).cut(1e-3 * bounds_of(mesh.positions()).radius());
-    for (std::size_t i = 0; i < cut.side.size(); ++i) {
-      if (cut.side[i] < cut.side.size()) {
-        ASSERT_EQ(cut.side[i], i);
+    const FacePatches::Partition partition =
+        FacePatches(mesh).partition(1e-3 * bounds_of(mesh.positions()).radius());
+    for (std::size_t i = 0; i < partition.side.size(); ++i) {
+      if (partition.side[i] < partition.side.size()) {
+        ASSERT_EQ(partition.side[i], i);
         continue;
       }
-      const FacePatch& patch = cut.patches[cut.side[i] - cut.side.size()];
+      const FacePatch& patch = partition.patches[partition.side[i] - partition.side.size()];
       for (const std::uint32_t v : mesh.triangles()[i]) {
         ASSERT_LE(glm::distance(mesh.positions()[v], patch.center), patch.radius * (1.0 + 1e-12)) << name;
         ASSERT_LE(std::abs(glm::dot(patch.normal, mesh.positions()[v] - patch.center)), patch.thick + 1e-15);
@@ -140,9 +142,9 @@ TEST(FacePatches, HoldTheirFaces) {
 TEST(FacePatches, AFlatSideIsOne) {
   for (const char* name : {"box", "box in float"}) {
     const TriangleMesh mesh = meshes(5)[name];
-    const FacePatches::Cut cut = FacePatches(mesh).cut(1e-6);
-    EXPECT_EQ(cut.patches.size(), 6u) << name;
-    for (const FacePatch& p : cut.patches) EXPECT_TRUE(p.is_flat());
+    const FacePatches::Partition partition = FacePatches(mesh).partition(1e-6);
+    EXPECT_EQ(partition.patches.size(), 6u) << name;
+    for (const FacePatch& p : partition.patches) EXPECT_TRUE(p.is_flat());
   }
 }
 
@@ -158,10 +160,10 @@ TEST(FacePatches, NoClosedSurfaceIsWithinOne) {
       faces.push_back({4 * i + t[0], 4 * i + t[1], 4 * i + t[2]});
   }
   const TriangleMesh dust = TriangleMesh::build(points, faces);
-  const FacePatches::Cut cut = FacePatches(dust).cut(10.0);
+  const FacePatches::Partition partition = FacePatches(dust).partition(10.0);
   for (const Component& c : dust.components()) {
     std::set<std::uint32_t> sides;
-    for (const FaceId f : c.faces) sides.insert(cut.side[index(f)]);
+    for (const FaceId f : c.faces) sides.insert(partition.side[index(f)]);
     EXPECT_GE(sides.size(), 2u);
   }
 }
@@ -204,7 +206,7 @@ TEST(MergedEdges, OfASheetAreItsSides) {
   const MergedEdges merged = merged_edges_of(scene);
   ASSERT_FALSE(merged.levels().empty());
   EXPECT_LE(merged.levels()[0].edges.size(), 5u) << "of 128";
-  EXPECT_EQ(merged.levels()[0].moved, 0.0);
+  EXPECT_EQ(merged.levels()[0].deviation, 0.0);
 }
 
 TEST(MergedEdges, LeaveFewEdgesOfFineSurfaces) {
@@ -213,17 +215,17 @@ TEST(MergedEdges, LeaveFewEdgesOfFineSurfaces) {
   ASSERT_GE(merged.levels().size(), 4u);
   for (std::size_t i = 0; i < merged.levels().size(); ++i) {
     const MergedLevel& level = merged.levels()[i];
-    EXPECT_GT(level.moved, 0.0);
+    EXPECT_GT(level.deviation, 0.0);
     if (i > 0) {
       EXPECT_LT(level.edges.size(), 0.75 * static_cast<double>(merged.levels()[i - 1].edges.size()));
-      EXPECT_GT(level.moved, merged.levels()[i - 1].moved);
+      EXPECT_GT(level.deviation, merged.levels()[i - 1].deviation);
     }
   }
   EXPECT_LT(merged.levels().back().edges.size(), 2000u) << "of 491,520";
   const Scene flat = scene_of(meshes(5)["box"]);
   ASSERT_EQ(merged_edges_of(flat).levels().size(), 1u);
   EXPECT_EQ(merged_edges_of(flat).levels()[0].edges.size(), 12u);
-  EXPECT_EQ(merged_edges_of(flat).levels()[0].moved, 0.0);
+  EXPECT_EQ(merged_edges_of(flat).levels()[0].deviation, 0.0);
   EXPECT_TRUE(merged_edges_of(scene_of(make_icosphere({0, 0, 0}, 1.0, 3))).levels().empty()) << "few faces";
 }
 
@@ -232,12 +234,12 @@ struct Difference {
   std::size_t penumbra = 0, contradictions = 0, merged = 0, lost = 0;
 };
 
-Difference compare(const Scene& scene, const SurfaceBuffer& surface, double moved) {
+Difference compare(const Scene& scene, const SurfaceBuffer& surface, double tolerance) {
   const RayScene rays(scene, 0);
   SilhouetteOptions options;
-  options.moved = 0.0;
+  options.tolerance = 0.0;
   const SilhouetteResult exact = silhouette_visibility(scene, rays, surface, options);
-  options.moved = moved;
+  options.tolerance = tolerance;
   const SilhouetteResult r = silhouette_visibility(scene, rays, surface, options);
   EXPECT_EQ(r.counts.receivers, exact.counts.receivers);
   EXPECT_EQ(r.counts.behind_light, exact.counts.behind_light);
@@ -279,14 +281,14 @@ TEST(MergedFaces, MoveVisibilityLittle) {
     for (int k = 0; k < 6; ++k) {
       scene.light = {light.center + 0.5 * size * random.point(), light.normal + 0.2 * random.point(),
                      size * random.spread(0.3, 1.5)};
-      const double moved = k % 2 == 0 ? 1e-2 : 4e-3;
-      const Difference d = compare(scene, receivers_about(random, scene), moved);
+      const double tolerance = k % 2 == 0 ? 1e-2 : 4e-3;
+      const Difference d = compare(scene, receivers_about(random, scene), tolerance);
       const double rmse = std::sqrt(d.square / static_cast<double>(std::max<std::size_t>(1, d.penumbra)));
-      std::printf("%-12s moved %.3f: merged for %5zu, %5zu in penumbra: RMSE %.1e, most %.1e, lost %zu\n",
-                  name.c_str(), moved, d.merged, d.penumbra, rmse, d.most, d.lost);
+      std::printf("%-12s tolerance %.3f: merged for %5zu, %5zu in penumbra: RMSE %.1e, most %.1e, lost %zu\n",
+                  name.c_str(), tolerance, d.merged, d.penumbra, rmse, d.most, d.lost);
       merged += d.merged;
-      EXPECT_LE(rmse, 0.1 * moved) << name;
-      EXPECT_LE(d.most, moved) << name;
+      EXPECT_LE(rmse, 0.1 * tolerance) << name;
+      EXPECT_LE(d.most, tolerance) << name;
       EXPECT_EQ(d.contradictions, 0u) << name;
       EXPECT_LE(d.lost, 320u) << name;
     }
@@ -297,13 +299,13 @@ TEST(MergedFaces, MoveVisibilityLittle) {
 /// On a finely divided surface that is flat face by face nothing is lost: the same edges as before.
 TEST(MergedFaces, OfFlatSidesLeaveTheCoarseMeshsEdges) {
   Scene scene = testing::data_scene("torus-medium");
-  const auto see = [&] {
+  const auto render = [&] {
     const RayScene rays(scene, 0);
     return silhouette_visibility(scene, rays, make_surface_buffer(scene, rays, 160, 120));
   };
-  const SilhouetteResult coarse = see();
+  const SilhouetteResult coarse = render();
   scene.objects.back().mesh = cut(scene.objects.back().mesh, 3);
-  const SilhouetteResult fine = see();
+  const SilhouetteResult fine = render();
   EXPECT_EQ(coarse.counts.merged_receivers, 0u);
   EXPECT_EQ(fine.counts.merged_receivers, fine.counts.receivers);
   EXPECT_LT(fine.counts.band_edges, 600u) << "of 55,296";
@@ -350,14 +352,14 @@ TEST(MergedFaces, CertificatesHoldToTheLast) {
     for (const MergedLevel& level : merged.levels()) {
       const Band band = make_merged_band(lit, merged, level);
       const auto receiver_at = [&](const Vec3& world) {
-        Receiver r;
+        TileReceiver r;
         r.x = light.point(world), r.normal = Vec3(0, 0, -1), r.horizon = no_horizon();
         return r;
       };
       const auto is_certain = [&](const Vec3& world) {
-        const Receiver r = receiver_at(world);
+        const TileReceiver r = receiver_at(world);
         for (std::size_t i = 0; i < band.edges.size(); ++i)
-          if (!is_certainly_none(band, i, r, slack)) return false;
+          if (!is_certainly_no_silhouette(band, i, r, slack)) return false;
         return true;
       };
       const Vec3 middle = scene.bounds().center();
@@ -374,10 +376,10 @@ TEST(MergedFaces, CertificatesHoldToTheLast) {
           const double half = 0.5 * (inside + outside);
           (is_certain(at(half)) ? outside : inside) = half;
         }
-        const Receiver r = receiver_at(at(outside));
+        const TileReceiver r = receiver_at(at(outside));
         ++checked;
         for (const BandEdge& e : exact.edges) {
-          const Projection p = see(e, r.x, 0.0);
+          const Projection p = project_edge(e, r.x, 0.0);
           ASSERT_FALSE(p.near && p.segment.jump != 0) << name << ", level of " << level.edges.size();
         }
       }
@@ -401,10 +403,10 @@ TEST(MergedLanes, DismissOnlyWhatIsBesideTheDisk) {
       block.sides[k].margin = random.spread(1e-6, 0.5);
       block.sides[k].left = {at + random.point(), random.spread(0.1, 3.0), 0.1, 0.1, round % 3 == 0};
     }
-    std::vector<Receiver> receivers;
+    std::vector<TileReceiver> receivers;
     const Vec3 place{random.uniform(-8, 8), random.uniform(-8, 8), random.uniform(6, 20)};
     for (int i = 0; i < 12; ++i) {
-      Receiver r;
+      TileReceiver r;
       r.x = place + random.spread(1e-3, 5.0) * random.point(), r.normal = Vec3(0, 0, -1);
       r.horizon = no_horizon();
       receivers.push_back(r);
@@ -414,7 +416,7 @@ TEST(MergedLanes, DismissOnlyWhatIsBesideTheDisk) {
     const MergedLanes lanes(block, extent);
     const std::uint32_t for_all = may_be_across(lanes, FloatShaft(shaft, extent));
     EXPECT_EQ(for_all >> block.count, 0u);
-    for (const Receiver& r : receivers) {
+    for (const TileReceiver& r : receivers) {
       const std::uint32_t for_one = may_be_across(lanes, FloatEye(r, extent));
       for (std::size_t k = 0; k < block.count; ++k) {
         const bool is_dismissed = !((for_all & for_one) >> k & 1);
@@ -450,9 +452,9 @@ TEST(SceneEdges, LoseNothingThatAReceiverSees) {
     for (int round = 0; round < 40; ++round) {
       const Vec3 place =
           scene.bounds().center() + scene.bounds().radius() * (random.point(1.5) - Vec3(0, 0, 1));
-      std::vector<Receiver> receivers;
+      std::vector<TileReceiver> receivers;
       for (int i = 0; i < 12; ++i) {
-        Receiver r;
+        TileReceiver r;
         r.x = light.point(place + random.spread(1e-4, 0.1) * random.point());
         r.normal = light.direction(random.direction());
         if (!(r.x.z > 0.0)) continue;
@@ -461,15 +463,15 @@ TEST(SceneEdges, LoseNothingThatAReceiverSees) {
       if (receivers.empty()) continue;
       Shaft shaft(receivers, all.extent);
       shaft.tighten(receivers);
-      const std::vector<Region> regions{shaft.region(receivers, light, frame)};
+      const std::vector<ReceiverRegion> regions{shaft.region(receivers, light, frame)};
       const Band found = make_band(lit, edges, regions);
       const auto key = [](const BandEdge& e) { return std::array{e.a.x, e.a.y, e.a.z, e.b.x, e.b.y, e.b.z}; };
       std::set<std::array<double, 6>> keys;
       for (const BandEdge& e : found.edges) keys.insert(key(e));
-      for (const Receiver& r : receivers)
+      for (const TileReceiver& r : receivers)
         for (const BandEdge& e : all.edges) {
           const bool below = glm::dot(r.normal, e.a - r.x) < 0.0 && glm::dot(r.normal, e.b - r.x) < 0.0;
-          if (below || !see(e, r.x, certificate_slack(all.extent)).near) continue;
+          if (below || !project_edge(e, r.x, certificate_slack(all.extent)).near) continue;
           ++seen;
           ASSERT_TRUE(keys.contains(key(e))) << name;
         }

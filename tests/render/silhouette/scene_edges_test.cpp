@@ -119,14 +119,14 @@ TEST(SceneEdges, LeaveOutIdleObjectsAndThoseThatDoNotCast) {
   Random random(62);
   const Scene scene = random_scene(random, Vec3(0.0), 1.0);
   const SceneEdges edges = edges_of(scene);
-  std::vector<char> idle(scene.objects.size(), 0);
-  idle[6] = 1;
+  std::vector<char> cannot_occlude(scene.objects.size(), 0);
+  cannot_occlude[6] = 1;
   std::size_t others = 0;
   for (const SceneEdge& e : edges.band_of(scene.light, {})) {
     EXPECT_TRUE(scene.objects[e.object].casts);
     others += e.object != 6 ? 1 : 0;
   }
-  const std::vector<SceneEdge> rest = edges.band_of(scene.light, idle);
+  const std::vector<SceneEdge> rest = edges.band_of(scene.light, cannot_occlude);
   EXPECT_TRUE(std::ranges::all_of(rest, [](const SceneEdge& e) { return e.object != 6; }));
   EXPECT_EQ(rest.size(), others);
 }
@@ -199,7 +199,7 @@ TEST(PointGroups, HaveTheBoxOfAllPoints) {
       const Vec3 p = round % 2 == 0 ? random.direction() : random.point();
       points.push_back(middle + size * p);
     }
-    if (round % 4 == 0)  // neighbours in a row
+    if (round % 4 == 0)  // neighbors in a row
       std::ranges::sort(points, {}, [](const Vec3& p) { return p.x; });
     const UnitLight light(
         DiskLight{middle + 5.0 * size * random.point(), random.direction(), size * random.spread(1e-3, 1.0)});

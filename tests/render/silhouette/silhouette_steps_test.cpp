@@ -1,4 +1,4 @@
-// The steps of the accurate rung, one by one.
+// The steps of the silhouette method, one by one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "penumbra/mesh/shapes.h"
-#include "render/silhouette/areas/cut_segments.h"
+#include "render/silhouette/areas/clip_segments.h"
 #include "render/silhouette/areas/visible_area.h"
 #include "render/silhouette/collect/edge_blocks.h"
 #include "render/silhouette/collect/edge_list.h"
@@ -85,18 +85,19 @@ int winding(const std::vector<Segment>& segments, const dvec2& p) {
   return sum;
 }
 
-TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
+TEST(VisibleArea, SlabsAndManyRowsAgreeWithPointCounts) {
   Random random(17);
-  Fuser fuser;
+  VisibleArea visible_area;
   double worst_rows = 0.0, worst_points = 0.0;
   for (int i = 0; i < 300; ++i) {
     const DiskPart part(i % 2 == 0 ? no_horizon() : random_horizon(random));
     const std::vector<Segment> segments = random_polygons(random, 1 + i % 4);
-    Cut cut;
-    cut_segments(segments, 0, part, cut);
-    ASSERT_TRUE(cut.closed);
-    if (cut.segments.empty()) continue;
-    const Fused slabs = fuser.by_slabs(cut, part), rows = fuser.by_rows(cut, part, 1024);
+    ClippedSegments clipped;
+    clip_segments(segments, 0, part, clipped);
+    ASSERT_TRUE(clipped.closed);
+    if (clipped.segments.empty()) continue;
+    const VisibleAreaResult slabs = visible_area.by_slabs(clipped, part),
+                            rows = visible_area.by_rows(clipped, part, 1024);
     worst_rows = std::max(worst_rows, std::abs(slabs.area - rows.area));
     // The lowest level by counting points.
     std::map<int, int> counts;
@@ -107,15 +108,15 @@ TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
         if (glm::dot(p, p) < 1.0 && height(part.horizon(), p) > 0.0) ++counts[winding(segments, p)];
       }
     const double counted = counts.begin()->second * 4.0 / (n * n);
-    // Neither a level too small for points, nor one that points miss.
+    // Neither a depth complexity too small for points, nor one that points miss.
     if (counts.begin()->second > 20 && slabs.area > 0.02)
       worst_points = std::max(worst_points, std::abs(slabs.area - counted));
     for (const dvec2& aim : slabs.aims) {
       EXPECT_LT(glm::dot(aim, aim), 1.0);
       EXPECT_GE(height(part.horizon(), aim), -1e-9);
     }
-    Fused chain;
-    if (fuse_chain(cut, part, 0.0, chain)) {
+    VisibleAreaResult chain;
+    if (area_by_chain(clipped, part, 0.0, chain)) {
       EXPECT_NEAR(chain.area, slabs.area, 1e-9) << i;
     }
   }
@@ -124,7 +125,7 @@ TEST(Fuse, SlabsAndManyRowsAgreeWithPointCounts) {
   EXPECT_LE(worst_points, 0.02) << "cells of 1/100 along boundaries of length below 20";
 }
 
-TEST(Fuse, WhatLiesBetweenRowsIsFound) {
+TEST(VisibleArea, WhatLiesBetweenRowsIsFound) {
   // A triangle over half of the disk, and thirty strips on top of each other between two of 64 rows.
   std::vector<Segment> segments;
   const auto outline = [&](std::vector<dvec2> corners) {
@@ -135,63 +136,63 @@ TEST(Fuse, WhatLiesBetweenRowsIsFound) {
   for (int k = 0; k < 30; ++k)
     outline({{-0.9 + 0.001 * k, -0.006}, {0.9, -0.0055}, {0.9, 0.0055}, {-0.9 + 0.001 * k, 0.006}});
   const DiskPart part(no_horizon());
-  Cut cut;
-  cut_segments(segments, 0, part, cut);
-  Fuser fuser;
-  const double exact = fuser.by_slabs(cut, part).area;
-  EXPECT_NEAR(fuser.by_rows(cut, part, 64).area, exact, 0.01);
+  ClippedSegments clipped;
+  clip_segments(segments, 0, part, clipped);
+  VisibleArea visible_area;
+  const double exact = visible_area.by_slabs(clipped, part).area;
+  EXPECT_NEAR(visible_area.by_rows(clipped, part, 64).area, exact, 0.01);
 }
 
-/// Silhouettes of merged faces turn back here and there: tiny loops the wrong way round, at a level below
+/// Silhouettes of merged faces turn back here and there: tiny loops the wrong way round, at a depth complexity below
 /// all.
-TEST(Fuse, SliversBelowTheLowestLevelCountForNothing) {
+TEST(VisibleArea, SliversBelowTheLowestDepthComplexityCountForNothing) {
   Random random(20);
   const auto outline = [](std::vector<Segment>& out, const std::vector<dvec2>& corners, int jump) {
     for (std::size_t k = 0; k < corners.size(); ++k)
       out.push_back({corners[k], corners[(k + 1) % corners.size()], jump});
   };
-  Fuser fuser;
+  VisibleArea visible_area;
   for (int i = 0; i < 100; ++i) {
     const DiskPart part(i % 2 == 0 ? no_horizon() : random_horizon(random));
     std::vector<Segment> segments;
     const dvec2 d = random.unit2(), side{-d.y, d.x}, foot = random.uniform(-0.6, 0.6) * side;
     outline(segments, {foot - 9.0 * d, foot + 9.0 * d, foot + 9.0 * (d + side), foot - 9.0 * (d - side)}, 2);
-    Cut whole;
-    cut_segments(segments, 0, part, whole);
+    ClippedSegments whole;
+    clip_segments(segments, 0, part, whole);
     if (!whole.closed || whole.segments.empty()) continue;
-    const double exact = fuser.by_slabs(whole, part).area;
+    const double exact = visible_area.by_slabs(whole, part).area;
     if (exact <= 1e-3 * part.area()) continue;  // a sliver itself
     const int slivers = 1 + i % 9;
     for (int k = 0; k < slivers; ++k) {
       const dvec2 at = foot + random.uniform(-0.7, 0.7) * d + random.uniform(-0.02, 0.02) * side;
       outline(segments, {at, at + 0.02 * d, at + 0.02 * d + 0.002 * side}, -2);
     }
-    Cut cut;
-    cut_segments(segments, 0, part, cut);
-    Fused fused;
-    fuser.fuse(cut, part, 64, 1e-3, fused);
-    EXPECT_NEAR(fused.area, exact, 1e-3) << i;
-    EXPECT_NEAR(fuser.by_slabs(cut, part, 1e-3).area, exact, 1e-3) << i;
-    EXPECT_NEAR(fuser.by_rows(cut, part, 64, 1e-3).area, exact, 2e-3) << i;
-    if (fuser.by_few_rows(cut, part, 1e-3, fused)) {
-      EXPECT_NEAR(fused.area, exact, 1e-3) << i;
+    ClippedSegments clipped;
+    clip_segments(segments, 0, part, clipped);
+    VisibleAreaResult result;
+    visible_area.compute(clipped, part, 64, 1e-3, result);
+    EXPECT_NEAR(result.area, exact, 1e-3) << i;
+    EXPECT_NEAR(visible_area.by_slabs(clipped, part, 1e-3).area, exact, 1e-3) << i;
+    EXPECT_NEAR(visible_area.by_rows(clipped, part, 64, 1e-3).area, exact, 2e-3) << i;
+    if (visible_area.by_few_rows(clipped, part, 1e-3, result)) {
+      EXPECT_NEAR(result.area, exact, 1e-3) << i;
     }
   }
 }
 
 /// A second caster within the first's shadow is no sliver, wherever it lies between few rows.
-TEST(Fuse, FewRowsDoNotMistakeOverlapForTwoLevels) {
+TEST(VisibleArea, FewRowsDoNotMistakeOverlapForTwoDepthComplexities) {
   Random random(24);
-  Fuser fuser;
+  VisibleArea visible_area;
   for (int i = 0; i < 300; ++i) {
     const DiskPart part(no_horizon());
     std::vector<Segment> segments = random_polygons(random, 2 + i % 3);
-    Cut cut;
-    cut_segments(segments, 0, part, cut);
-    if (!cut.closed || cut.segments.empty()) continue;
-    Fused few;
-    if (fuser.by_few_rows(cut, part, 1e-3, few)) {
-      EXPECT_NEAR(few.area, fuser.by_slabs(cut, part).area, 0.02) << i;
+    ClippedSegments clipped;
+    clip_segments(segments, 0, part, clipped);
+    if (!clipped.closed || clipped.segments.empty()) continue;
+    VisibleAreaResult few;
+    if (visible_area.by_few_rows(clipped, part, 1e-3, few)) {
+      EXPECT_NEAR(few.area, visible_area.by_slabs(clipped, part).area, 0.02) << i;
     }
   }
 }
@@ -202,21 +203,21 @@ TEST(Rows, VectorsAgreeWithRowsSortedSingly) {
   for (int i = 0; i < 200; ++i) {
     const DiskPart part(i % 2 == 0 ? no_horizon() : random_horizon(random));
     const std::vector<Segment> segments = random_polygons(random, 1 + i % 60);
-    Cut cut;
-    cut_segments(segments, 0, part, cut);
+    ClippedSegments clipped;
+    clip_segments(segments, 0, part, clipped);
     const int rows = 4 + i % 90;
-    const RowSums a = together.sweep(cut, part, rows), b = singly.sweep_singly(cut, part, rows);
+    const RowSums a = together.sweep(clipped, part, rows), b = singly.sweep_singly(clipped, part, rows);
     ASSERT_EQ(a.length, b.length);
     ASSERT_EQ(a.first, b.first);
     ASSERT_EQ(a.second, b.second);
     ASSERT_EQ(a.lowest, b.lowest);
     ASSERT_EQ(a.lowest_length, b.lowest_length);
-    ASSERT_EQ(a.levels, b.levels);
+    ASSERT_EQ(a.complexities, b.complexities);
     for (int k = 0; k < 2; ++k) ASSERT_EQ(a.aims[k], b.aims[k]);
   }
 }
 
-TEST(Integrate, IsExactForOneChord) {
+TEST(ClippedSegments, IsExactForOneChord) {
   Random random(23);
   for (int i = 0; i < 500; ++i) {
     const Chord chord{random.unit2(), random.uniform(-0.99, 0.99)};
@@ -225,10 +226,10 @@ TEST(Integrate, IsExactForOneChord) {
     const double reach = random.spread(3.0, 1e7);
     const std::vector<Segment> segments{{foot - reach * d, foot + reach * d, -1}};
     const DiskPart part(no_horizon());
-    Cut cut;
-    cut_segments(segments, 0, part, cut);
-    Fused out;
-    if (!fuse_chain(cut, part, 0.0, out)) continue;  // too near the rim for a ray
+    ClippedSegments clipped;
+    clip_segments(segments, 0, part, clipped);
+    VisibleAreaResult out;
+    if (!area_by_chain(clipped, part, 0.0, out)) continue;  // too near the rim for a ray
     EXPECT_NEAR(out.area / testing::kPi, half_plane_area(chord.delta), 1e-9) << i;
   }
 }
@@ -260,21 +261,21 @@ std::vector<Segment> folded_chain(Random& random) {
   return out;
 }
 
-TEST(Integrate, FoldsOfAChainTakeUpNoMoreThanTheyMay) {
+TEST(ClippedSegments, FoldsOfAChainTakeUpNoMoreThanTheyMay) {
   Random random(24);
   const DiskPart part(no_horizon());
   std::size_t chains = 0, folded = 0;
   double tightest = 0.0;
   for (int i = 0; i < 600; ++i) {
     const std::vector<Segment> segments = folded_chain(random);
-    Cut cut;
-    cut_segments(segments, 0, part, cut);
-    ASSERT_TRUE(cut.closed);
-    if (is_one_chain(cut) || !is_one_chain(cut, 0.5)) continue;
+    ClippedSegments clipped;
+    clip_segments(segments, 0, part, clipped);
+    ASSERT_TRUE(clipped.closed);
+    if (is_one_chain(clipped) || !is_one_chain(clipped, 0.5)) continue;
     double least = 0.0, enough = 0.5;  // of folds to allow
     for (int step = 0; step < 20; ++step) {
       const double middle = 0.5 * (least + enough);
-      (is_one_chain(cut, middle) ? enough : least) = middle;
+      (is_one_chain(clipped, middle) ? enough : least) = middle;
     }
     ++chains;
     std::size_t others = 0;
@@ -282,8 +283,8 @@ TEST(Integrate, FoldsOfAChainTakeUpNoMoreThanTheyMay) {
     for (int y = 0; y < n; ++y)
       for (int x = 0; x < n; ++x) {
         const dvec2 p{2.0 * (x + 0.5) / n - 1.0, 2.0 * (y + 0.5) / n - 1.0};
-        const int level = winding(segments, p);
-        others += glm::dot(p, p) < 1.0 && level != 0 && level != 1 ? 1 : 0;
+        const int complexity = winding(segments, p);
+        others += glm::dot(p, p) < 1.0 && complexity != 0 && complexity != 1 ? 1 : 0;
       }
     const double area = static_cast<double>(others) * 4.0 / (n * n);
     folded += area > 0.0 ? 1 : 0;
@@ -339,13 +340,13 @@ void expect_same_segments(std::vector<Segment> p, std::vector<Segment> q) {
   for (std::size_t i = 0; i < p.size(); ++i) ASSERT_EQ(numbers(p[i]), numbers(q[i]));
 }
 
-void add_place(std::int32_t place, std::int32_t jump, Sifted& out) {
+void add_place(std::int32_t place, std::int32_t jump, TestedEdges& out) {
   out.places.push_back(place);
   out.jumps.push_back(jump);
   ++out.count;
 }
 
-void expect_same_places(const Sifted& p, const Sifted& q) {
+void expect_same_places(const TestedEdges& p, const TestedEdges& q) {
   ASSERT_EQ(p.count, q.count);
   const auto n = static_cast<std::ptrdiff_t>(p.count);
   ASSERT_TRUE(std::equal(p.places.begin(), p.places.begin() + n, q.places.begin()));
@@ -353,8 +354,8 @@ void expect_same_places(const Sifted& p, const Sifted& q) {
 }
 
 /// Receivers near each other whose tangent plane may cut the disk.
-std::vector<Receiver> random_receivers(Random& random, std::size_t count) {
-  std::vector<Receiver> out;
+std::vector<TileReceiver> random_receivers(Random& random, std::size_t count) {
+  std::vector<TileReceiver> out;
   const Vec3 middle{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(3, 10)};
   const double size = random.spread(0.01, 2.0);
   const Vec3 normal = glm::normalize(Vec3(0, 0, -1) + random.point(1.5));
@@ -369,11 +370,11 @@ std::vector<Receiver> random_receivers(Random& random, std::size_t count) {
 }
 
 /// What is above the horizon of the edges near the disk, by the definition.
-std::vector<Segment> seen_edges(const Band& band, const Receiver& r, double slack, bool& certain) {
+std::vector<Segment> seen_edges(const Band& band, const TileReceiver& r, double slack, bool& certain) {
   std::vector<Segment> out;
   certain = true;
   for (const BandEdge& e : band.edges) {
-    const Projection p = see(e, r.x, slack);
+    const Projection p = project_edge(e, r.x, slack);
     if (!p.near) continue;
     const bool above = height(r.horizon, p.segment.a) > 0.0 || height(r.horizon, p.segment.b) > 0.0;
     certain = certain && !above;
@@ -384,49 +385,49 @@ std::vector<Segment> seen_edges(const Band& band, const Receiver& r, double slac
 
 TEST(EdgeBlocks, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
   Random random(37);
-  std::size_t kept = 0, near = 0, listed = 0, looked_into = 0, cut = 0;
+  std::size_t kept = 0, near = 0, listed = 0, looked_into = 0, clipped = 0;
   for (int round = 0; round < 80; ++round) {
     const Band band = round % 4 == 3 ? sphere_band(random) : random_band(random, 60, round % 2 == 0);
     const BandTree tree(band);
     const EdgeBlocks blocks(band);
-    const std::vector<Receiver> receivers = random_receivers(random, 16);
+    const std::vector<TileReceiver> receivers = random_receivers(random, 16);
     Shaft shaft(receivers, band.extent);
     shaft.tighten(receivers);
-    std::vector<Siblings> list, few;
-    Sight sight;
-    tree.gather(shaft, list);
+    std::vector<NodeMask> list, few;
+    ProjectedEdges projected;
+    tree.collect(shaft, list);
     tree.narrow(list, std::span(receivers).first(4), few);
     for (std::size_t r = 0; r < receivers.size(); ++r) {
-      const Receiver& receiver = receivers[r];
-      Sifted sifted, singly;
-      EXPECT_TRUE(blocks.sift(tree, r < 4 ? few : list, receiver, blocks.count(), sifted));
-      for (std::size_t b = 0; b < sifted.looked_into; ++b)
+      const TileReceiver& receiver = receivers[r];
+      TestedEdges tested, singly;
+      EXPECT_TRUE(blocks.test_edges(tree, r < 4 ? few : list, receiver, blocks.count(), tested));
+      for (std::size_t b = 0; b < tested.looked_into; ++b)
         for (std::uint32_t lane = 0; lane < 8; ++lane) {
-          const std::uint32_t i = 8 * static_cast<std::uint32_t>(sifted.blocks[b]) + lane;
-          const int jump = blocks.sift_one(i, receiver.x);
+          const std::uint32_t i = 8 * static_cast<std::uint32_t>(tested.blocks[b]) + lane;
+          const int jump = blocks.test_edge(i, receiver.x);
           if (jump == 0) continue;
           add_place(static_cast<std::int32_t>(i), jump, singly);
           ASSERT_LT(i, band.edges.size()) << "no edge";
-          if (jump != Sifted::kUnsure) {
+          if (jump != TestedEdges::kUnsure) {
             ASSERT_EQ(jump, jump_at(band.edges[i], receiver.x));
           }
         }
-      expect_same_places(sifted, singly);
-      look(band, sifted, receiver.x, receiver.horizon, 1e-6, sight);
+      expect_same_places(tested, singly);
+      project_edges(band, tested, receiver.x, receiver.horizon, 1e-6, projected);
       bool certain = false;
       const std::vector<Segment> segments = seen_edges(band, receiver, 1e-6, certain);
-      expect_same_segments(sight.segments, segments);
+      expect_same_segments(projected.segments, segments);
       if (!receiver.horizon_cuts) {
-        ASSERT_EQ(sight.certain, certain);
+        ASSERT_EQ(projected.certain, certain);
       }
-      kept += sifted.count, near += segments.size(), looked_into += sifted.looked_into;
-      listed += count_blocks(list), cut += receiver.horizon_cuts ? 1 : 0;
+      kept += tested.count, near += segments.size(), looked_into += tested.looked_into;
+      listed += count_blocks(list), clipped += receiver.horizon_cuts ? 1 : 0;
     }
   }
-  std::printf("%zu blocks listed, %zu looked into, %zu edges sifted, %zu near; %zu horizons\n", listed,
-              looked_into, kept, near, cut);
+  std::printf("%zu blocks listed, %zu looked into, %zu edges tested, %zu near; %zu horizons\n", listed,
+              looked_into, kept, near, clipped);
   EXPECT_GT(near, 1000u);
-  EXPECT_GT(cut, 50u);
+  EXPECT_GT(clipped, 50u);
   EXPECT_LT(looked_into, listed);
 }
 
@@ -436,22 +437,22 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
   for (int round = 0; round < 40; ++round) {
     const Band band = random_band(random, 60, round % 2 == 0);
     const BandTree tree(band);
-    std::vector<Receiver> receivers;
+    std::vector<TileReceiver> receivers;
     const Vec3 middle{random.uniform(-6, 6), random.uniform(-6, 6), random.uniform(3, 10)};
     for (int i = 0; i < 16; ++i)
       receivers.push_back(
           {middle + random.point(round % 3 == 0 ? 2.0 : 0.1), {0, 0, -1}, no_horizon(), false, 0});
     Shaft shaft(receivers, band.extent);
     shaft.tighten(receivers);
-    std::vector<Siblings> blocks;
+    std::vector<NodeMask> blocks;
     std::vector<std::uint32_t> edges, narrowed;
-    Sifted sifted;
-    Sight sight;
-    tree.gather(shaft, blocks);
-    EdgeBlocks(band).gather(blocks, shaft, edges);
+    TestedEdges tested;
+    ProjectedEdges projected;
+    tree.collect(shaft, blocks);
+    EdgeBlocks(band).collect(blocks, shaft, edges);
     EdgeList list, half;
     list.assign(band, edges, shaft.middle());
-    const std::span<const Receiver> few(receivers.data(), 4);
+    const std::span<const TileReceiver> few(receivers.data(), 4);
     Shaft narrow_shaft(few, band.extent);
     narrow_shaft.tighten(few);
     narrow(list, narrow_shaft, narrowed);
@@ -459,38 +460,38 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
     for (std::size_t r = 0; r < receivers.size(); ++r) {
       const Vec3& x = receivers[r].x;
       const EdgeList& l = r < 4 ? half : list;
-      sift(l, x, sifted);
-      Sifted singly;
+      test_edges(l, x, tested);
+      TestedEdges singly;
       for (std::uint32_t i = 0; i < l.size(); ++i) {
-        const int jump = sift_one(l, i, x);
+        const int jump = test_edge(l, i, x);
         if (jump == 0) continue;
         add_place(l.place(i), jump, singly);
       }
-      expect_same_places(sifted, singly);
+      expect_same_places(tested, singly);
       std::vector<Segment> segments;
       std::size_t found = 0, expected = 0;
-      for (std::size_t i = 0; i < sifted.count; ++i) {
-        const BandEdge& e = l.edge(sifted.places[i]);
-        if (sifted.jumps[i] != Sifted::kUnsure) {
-          ASSERT_EQ(sifted.jumps[i], jump_at(e, x));
+      for (std::size_t i = 0; i < tested.count; ++i) {
+        const BandEdge& e = l.edge(tested.places[i]);
+        if (tested.jumps[i] != TestedEdges::kUnsure) {
+          ASSERT_EQ(tested.jumps[i], jump_at(e, x));
         }
-        const Projection p = see(e, x, 1e-6);
+        const Projection p = project_edge(e, x, 1e-6);
         found += p.near ? 1 : 0;
         if (p.near && p.segment.jump != 0) segments.push_back(p.segment);
       }
-      look(l, x, no_horizon(), 1e-6, sight);
-      expect_same_segments(sight.segments, segments);
-      ASSERT_EQ(sight.certain, found == 0);
-      for (std::size_t i = 0; i < sight.segments.size(); ++i) {
-        const Segment& s = sight.segments[i];
-        ASSERT_TRUE(i >= sight.inside || (glm::dot(s.a, s.a) < 1.0 && glm::dot(s.b, s.b) < 1.0));
+      project_edges(l, x, no_horizon(), 1e-6, projected);
+      expect_same_segments(projected.segments, segments);
+      ASSERT_EQ(projected.certain, found == 0);
+      for (std::size_t i = 0; i < projected.segments.size(); ++i) {
+        const Segment& s = projected.segments[i];
+        ASSERT_TRUE(i >= projected.inside || (glm::dot(s.a, s.a) < 1.0 && glm::dot(s.b, s.b) < 1.0));
       }
-      for (const BandEdge& e : band.edges) expected += see(e, x, 1e-6).near ? 1 : 0;
+      for (const BandEdge& e : band.edges) expected += project_edge(e, x, 1e-6).near ? 1 : 0;
       ASSERT_EQ(found, expected) << "round " << round;
-      kept += sifted.count, near += found, listed += l.size();
+      kept += tested.count, near += found, listed += l.size();
     }
   }
-  std::printf("%zu listed, %zu sifted, %zu near\n", listed, kept, near);
+  std::printf("%zu listed, %zu tested, %zu near\n", listed, kept, near);
   EXPECT_GT(near, 1000u);
   EXPECT_LT(kept, listed);
 }

@@ -249,8 +249,8 @@ TEST(Silhouette, DoesNotNeedSolidCasters) {
   expect_agreement(scene_over_floor({testing::mesh_of(more, fin)}, kLamp), "three faces at an edge");
 }
 
-// Edges that pass exactly through the disk's centre and poles, seen from receivers exactly under them.
-TEST(Silhouette, EdgesThroughTheCentre) {
+// Edges that pass exactly through the disk's center and poles, seen from receivers exactly under them.
+TEST(Silhouette, EdgesThroughTheCenter) {
   const Scene scene = testing::scene_in_light_frame(1.0, {testing::rectangle(0, 30, -30, 30, 4.0)});
   std::vector<Vec3> points;
   for (int j = 0; j < 16; ++j)

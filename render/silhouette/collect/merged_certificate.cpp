@@ -1,4 +1,4 @@
-#include "render/silhouette/merge/merged_certificate.h"
+#include "render/silhouette/collect/merged_certificate.h"
 
 #include <bit>
 #include <cmath>
@@ -27,7 +27,7 @@ PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePl
 
 /// A box beside the cone from a receiver to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or below its
 /// tangent plane; by a margin of `slack` at the disk.
-PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const Receiver& receiver,
+PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const TileReceiver& receiver,
                                 double slack) {
   const Vec3 &x = receiver.x, &n = receiver.normal;
   const double per_z = 1.0 / x.z, t = middle.z * per_z;
@@ -39,7 +39,7 @@ PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const Rece
   return glm::dot(n, middle - x) + glm::dot(glm::abs(n), half) < -slack;
 }
 
-/// For all receivers of a shaft what `is_certainly_none` asks first.
+/// For all receivers of a shaft what `is_certainly_no_silhouette` asks first.
 bool is_none_for_all(const Band& band, std::size_t i, const Shaft& shaft) {
   const BandEdge& e = band.edges[i];
   const MergedSides& s = band.sides[i];
@@ -50,7 +50,7 @@ bool is_none_for_all(const Band& band, std::size_t i, const Shaft& shaft) {
 
 }  // namespace
 
-bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver, double slack) {
+bool is_certainly_no_silhouette(const Band& band, std::size_t i, const TileReceiver& receiver, double slack) {
   const BandEdge& e = band.edges[i];
   const MergedSides& sides = band.sides[i];
   const Vec3& x = receiver.x;
@@ -65,29 +65,30 @@ bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver
     if (looks == 0 && !side->is_flat && !side->is_far(x) && !is_below(side->center, side->radius))
       return false;
   if (is_below(e.a, sides.margin + slack) && is_below(e.b, sides.margin + slack)) return true;
-  if (sides.margin <= slack * kStraight) return !see(e, x, slack).near;
+  if (sides.margin <= slack * kStraight) return !project_edge(e, x, slack).near;
   if (std::min(e.a.z, e.b.z) - sides.margin > x.z) return true;
   // What is seen of it lies within its margin: as if it were an edge of one face, and the disk wider.
   const double below = x.z - std::max(e.a.z, e.b.z) - sides.margin;
   if (!(below > 0.0)) return false;
   const double steep = (glm::length(glm::dvec2(x)) + 1.0) / x.z;
   const FacePlane unknown{Vec3(0.0), 0.0, std::numeric_limits<double>::infinity()};
-  return !see({e.a, e.b, unknown, unknown}, x, slack + sides.margin * (1.0 + steep) * x.z / below).near;
+  return !project_edge({e.a, e.b, unknown, unknown}, x, slack + sides.margin * (1.0 + steep) * x.z / below)
+              .near;
 }
 
-void Doubts::begin(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft) {
+void UncertainEdges::begin_tile(const Band& band, const std::vector<NodeMask>& list, const Shaft& shaft) {
   band_ = &band, list_ = &list, shaft_ = &shaft;
   part_ = {};
-  gathered_ = narrowed_ = false;
+  collected_ = narrowed_ = false;
 }
 
-void Doubts::look_at(std::span<const Receiver> part) {
+void UncertainEdges::begin_part(std::span<const TileReceiver> part) {
   part_ = part;
   narrowed_ = false;
 }
 
-void Doubts::add(std::int32_t block, std::uint32_t edges, const Shaft& shaft, const FloatShaft& in_float,
-                 std::vector<EdgesOfBlock>& out) const {
+void UncertainEdges::add(std::int32_t block, std::uint32_t edges, const Shaft& shaft,
+                         const FloatShaft& in_float, std::vector<EdgesOfBlock>& out) const {
   const auto at = static_cast<std::size_t>(block);
   std::uint32_t left = 0;
   for (edges &= may_be_across(band_->lanes[at], in_float); edges != 0; edges &= edges - 1)
@@ -96,17 +97,17 @@ void Doubts::add(std::int32_t block, std::uint32_t edges, const Shaft& shaft, co
   if (left != 0) out.push_back({block, left});
 }
 
-void Doubts::gather() {
+void UncertainEdges::collect() {
   constexpr std::uint32_t kAll = (1u << kFloatLanes) - 1;
   of_tile_.clear();
   const FloatShaft in_float(*shaft_, band_->extent);
   for_each_block(*list_, [&](std::size_t block) {
     add(static_cast<std::int32_t>(block), kAll, *shaft_, in_float, of_tile_);
   });
-  gathered_ = true;
+  collected_ = true;
 }
 
-void Doubts::narrow() {
+void UncertainEdges::narrow() {
   of_part_.clear();
   narrowed_ = true;
   if (of_tile_.empty()) return;
@@ -116,8 +117,8 @@ void Doubts::narrow() {
   for (const EdgesOfBlock& e : of_tile_) add(e.block, e.edges, shaft, in_float, of_part_);
 }
 
-bool Doubts::are_none(const Receiver& receiver, double slack) {
-  if (!gathered_) gather();
+bool UncertainEdges::are_none(const TileReceiver& receiver, double slack) {
+  if (!collected_) collect();
   if (!narrowed_) narrow();
   if (of_part_.empty()) return true;
   const FloatEye eye(receiver, band_->extent);
@@ -126,7 +127,7 @@ bool Doubts::are_none(const Receiver& receiver, double slack) {
     for (std::uint32_t edges = e.edges & may_be_across(band_->lanes[at], eye); edges != 0;
          edges &= edges - 1) {
       const std::size_t i = kFloatLanes * at + static_cast<std::size_t>(std::countr_zero(edges));
-      if (!is_certainly_none(*band_, i, receiver, slack)) return false;
+      if (!is_certainly_no_silhouette(*band_, i, receiver, slack)) return false;
     }
   }
   return true;

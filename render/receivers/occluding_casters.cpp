@@ -1,4 +1,4 @@
-#include "render/receivers/idle_casters.h"
+#include "render/receivers/occluding_casters.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -98,15 +98,16 @@ void CasterPlanes::set_receivers(const ReceiverCloud& receivers) {
   });
 }
 
-bool CasterPlanes::is_idle(const DiskLight& world, double slack) const {
+bool CasterPlanes::cannot_occlude(const DiskLight& world, double slack) const {
   const DiskLight light{(world.center - origin_) * scale_, world.normal, world.radius * scale_};
-  std::vector<char> idle(faces_, 0);
+  std::vector<char> separated(faces_, 0);
   for (const Plane& plane : planes_) {
     if (plane.nearest < -slack) continue;
     if (nearest_of_disk(light, plane.normal, plane.in_front(light.center)) < 0.0) continue;
-    for (std::size_t f = 0; f < faces_; ++f) idle[f] = idle[f] || plane.behind[f];
+    for (std::size_t f = 0; f < faces_; ++f) separated[f] = separated[f] || plane.behind[f];
   }
-  return !planes_.empty() && std::all_of(idle.begin(), idle.end(), [](char each) { return each != 0; });
+  return !planes_.empty() &&
+         std::all_of(separated.begin(), separated.end(), [](char each) { return each != 0; });
 }
 
 namespace {
@@ -125,24 +126,25 @@ std::vector<glm::vec4> ray_origins(const RayFrame& frame, const SurfaceBuffer& s
 
 }  // namespace
 
-std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface) {
+std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const RayFrame& frame,
+                                                   const SurfaceBuffer& surface) {
   constexpr std::size_t kSome = 1009;  // a prime: spread over rows and columns
-  std::vector<char> idle(scene.objects.size(), 0);
+  std::vector<char> out(scene.objects.size(), 0);
   std::vector<glm::vec4> some, all;  // when they are needed
   std::optional<ReceiverCloud> cloud;
-  for (std::size_t k = 0; k < idle.size(); ++k) {
+  for (std::size_t k = 0; k < out.size(); ++k) {
     if (!scene.objects[k].casts) continue;
     CasterPlanes planes(scene.objects[k].mesh, frame.origin, frame.scale);
-    if (!planes.is_idle(scene.light)) continue;
+    if (!planes.cannot_occlude(scene.light)) continue;
     if (some.empty()) some = ray_origins(frame, surface, kSome);
     planes.set_receivers(ReceiverCloud(some));  // rules most casters out at little cost
-    if (!planes.is_idle(scene.light)) continue;
+    if (!planes.cannot_occlude(scene.light)) continue;
     if (all.empty()) all = ray_origins(frame, surface, 1);
     if (!cloud) cloud.emplace(all);
     planes.set_receivers(*cloud);
-    idle[k] = planes.is_idle(scene.light);
+    out[k] = planes.cannot_occlude(scene.light);
   }
-  return idle;
+  return out;
 }
 
 }  // namespace penumbra::detail

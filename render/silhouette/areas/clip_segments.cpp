@@ -1,4 +1,4 @@
-#include "render/silhouette/areas/cut_segments.h"
+#include "render/silhouette/areas/clip_segments.h"
 
 #include <algorithm>
 #include <array>
@@ -21,19 +21,19 @@ double cross(const dvec2& p, const dvec2& q) {
 /// An end of a segment on its way through the cuts.
 struct End {
   dvec2 at;
-  bool moved = false;  ///< now on D's boundary
+  bool on_boundary = false;  ///< now on D's boundary
   bool on_chord = false;
 };
 
 /// Cuts a → b to the disk. False where nothing is left.
-bool cut_to_disk(End& a, End& b) {
+bool clip_to_disk(End& a, End& b) {
   const bool in_a = glm::dot(a.at, a.at) < 1.0, in_b = glm::dot(b.at, b.at) < 1.0;
   if (in_a && in_b) return true;
   const dvec2 way = b.at - a.at;
   const double length = glm::length(way);
   if (!(length > 0.0)) return false;
   const dvec2 d = way / length;
-  // Foot of the centre's perpendicular, from the end that is less far away.
+  // Foot of the center's perpendicular, from the end that is less far away.
   const bool a_nearer = glm::dot(a.at, a.at) <= glm::dot(b.at, b.at);
   const double distance = cross(a_nearer ? a.at : b.at, d);
   const double half = std::sqrt(std::max(0.0, (1.0 - distance) * (1.0 + distance)));
@@ -47,7 +47,7 @@ bool cut_to_disk(End& a, End& b) {
 }
 
 /// Cuts what is left to the horizon's side. False where nothing is left.
-bool cut_to_horizon(End& a, End& b, const Chord& horizon) {
+bool clip_to_horizon(End& a, End& b, const Chord& horizon) {
   const double ha = height(horizon, a.at), hb = height(horizon, b.at);
   if (ha > 0.0 && hb > 0.0) return true;
   if (!(ha > 0.0) && !(hb > 0.0)) return false;
@@ -94,7 +94,7 @@ class Folds {
   }
 
   /// A line across the general direction meets k segments that go back and k or k + 1 others. Were it to
-  /// meet at most one, somewhere between the first and the last, no level between these would differ by more
+  /// meet at most one, somewhere between the first and the last, no depth complexity between these would differ by more
   /// than k + 1 ≤ 2 k jumps. Returns twice the largest distance of these times the width, for one that goes
   /// back.
   float area(std::size_t back) const {
@@ -161,13 +161,14 @@ double area_of_folds(std::span<const Segment> segments, const dvec2& general, do
 
 }  // namespace
 
-void cut_segments(std::span<const Segment> segments, std::size_t inside, const DiskPart& part, Cut& out) {
+void clip_segments(std::span<const Segment> segments, std::size_t inside, const DiskPart& part,
+                   ClippedSegments& out) {
   out.segments.assign(segments.begin(), segments.begin() + static_cast<std::ptrdiff_t>(inside));
   out.events.clear();
   double sum = 0.0;
   int changes = 0;
   const auto cross_boundary = [&](const End& end, int change) {
-    if (!end.moved) return;
+    if (!end.on_boundary) return;
     Event& event = out.events.emplace_back();  // in place: a copy would wait for what is being written
     event.at.x = end.at.x;
     event.at.y = end.at.y;
@@ -178,8 +179,8 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
   sum += 0.5 * sum_of_crosses(out.segments);
   for (const Segment& s : segments.subspan(inside)) {
     End a{s.a}, b{s.b};
-    if (!cut_to_disk(a, b)) continue;
-    if (part.is_cut() && !cut_to_horizon(a, b, part.horizon())) continue;
+    if (!clip_to_disk(a, b)) continue;
+    if (part.is_cut() && !clip_to_horizon(a, b, part.horizon())) continue;
     cross_boundary(a, -s.jump);
     cross_boundary(b, s.jump);
     sum += 0.5 * s.jump * cross(a.at, b.at);
@@ -194,18 +195,18 @@ void cut_segments(std::span<const Segment> segments, std::size_t inside, const D
   out.closed = changes == 0;
 }
 
-bool is_one_chain(const Cut& cut, double folds) {
-  if (cut.events.size() != 2) return false;
+bool is_one_chain(const ClippedSegments& clipped, double folds) {
+  if (clipped.events.size() != 2) return false;
   dvec2 general(0.0);
-  const int size = std::abs(cut.segments.empty() ? 0 : cut.segments.front().jump);
-  for (const Segment& s : cut.segments) {
+  const int size = std::abs(clipped.segments.empty() ? 0 : clipped.segments.front().jump);
+  for (const Segment& s : clipped.segments) {
     if (std::abs(s.jump) != size) return false;
     general += s.jump > 0 ? s.b - s.a : s.a - s.b;
   }
   const auto goes_back = [&](const Segment& s) { return glm::dot(s.b - s.a, general) * s.jump < 0.0; };
-  if (std::ranges::none_of(cut.segments, goes_back)) return true;
-  return folds > 0.0 && cut.segments.size() <= Folds::kMost &&
-         area_of_folds(cut.segments, general, folds, goes_back) <= folds;
+  if (std::ranges::none_of(clipped.segments, goes_back)) return true;
+  return folds > 0.0 && clipped.segments.size() <= Folds::kMost &&
+         area_of_folds(clipped.segments, general, folds, goes_back) <= folds;
 }
 
 }  // namespace penumbra::detail

@@ -1,6 +1,6 @@
 // Casters that hide nothing from the image: which are, which are not, and that leaving them out changes
 // nothing.
-#include "render/receivers/idle_casters.h"
+#include "render/receivers/occluding_casters.h"
 
 #include <gtest/gtest.h>
 
@@ -17,54 +17,55 @@ TriangleMesh box() {
   return make_box(Vec3(0.0), Vec3(1.0));
 }
 
-bool is_idle(const TriangleMesh& mesh, const DiskLight& light, const std::vector<glm::vec4>& receivers) {
+bool cannot_occlude(const TriangleMesh& mesh, const DiskLight& light,
+                    const std::vector<glm::vec4>& receivers) {
   CasterPlanes planes(mesh, Vec3(0.0), 1.0);
   planes.set_receivers(detail::ReceiverCloud(receivers));
-  return planes.is_idle(light, 1e-6);
+  return planes.cannot_occlude(light, 1e-6);
 }
 
-TEST(IdleCasters, AFloorSeenFromAboveIsOne) {
+TEST(OccludingCasters, AFloorSeenFromAboveIsOne) {
   const DiskLight above{{0, 5, 0}, {0, -1, 0}, 1.0}, aside{{5, 5, 0}, {-1, -1, 0}, 1.0},
       level{{5, 1.5, 0}, {-1, 0, 0}, 1.0}, below{{0, -5, 0}, {0, 1, 0}, 1.0};
   const std::vector<glm::vec4> over{{0, 1, 0, 1}, {0.5f, 1, 0.5f, 1}, {3, 2, 0, 1}, {0, -9, 0, 0}};
-  EXPECT_TRUE(is_idle(box(), above, over));
-  EXPECT_TRUE(is_idle(box(), aside, over));
-  EXPECT_FALSE(is_idle(box(), level, over)) << "some of the disk is below the top";
-  EXPECT_FALSE(is_idle(box(), below, over));
+  EXPECT_TRUE(cannot_occlude(box(), above, over));
+  EXPECT_TRUE(cannot_occlude(box(), aside, over));
+  EXPECT_FALSE(cannot_occlude(box(), level, over)) << "some of the disk is below the top";
+  EXPECT_FALSE(cannot_occlude(box(), below, over));
   for (const glm::vec4& hidden : {glm::vec4(0, -2, 0, 1), {0, 0, 0, 1}, {3, 0.99f, 0, 1}}) {
     std::vector<glm::vec4> with = over;
     with.push_back(hidden);
-    EXPECT_FALSE(is_idle(box(), above, with)) << hidden.x << " " << hidden.y;
+    EXPECT_FALSE(cannot_occlude(box(), above, with)) << hidden.x << " " << hidden.y;
   }
 }
 
-TEST(IdleCasters, ARoomSeenFromInsideIsOne) {
+TEST(OccludingCasters, ARoomSeenFromInsideIsOne) {
   const DiskLight lamp{{0, 0.9, 0}, {0.1, -1, 0}, 0.3};
   const std::vector<glm::vec4> inside{{0, -1, 0, 1}, {1, 0, 0.5f, 1}, {0.2f, 0.3f, 0.4f, 1}};
-  EXPECT_TRUE(is_idle(box(), lamp, inside));
+  EXPECT_TRUE(cannot_occlude(box(), lamp, inside));
   std::vector<glm::vec4> outside = inside;
   outside.push_back({0, -2, 0, 1});
-  EXPECT_FALSE(is_idle(box(), lamp, outside));
+  EXPECT_FALSE(cannot_occlude(box(), lamp, outside));
 }
 
-TEST(IdleCasters, AMeshOfManyFacesOrPlanesIsNotLookedAt) {
+TEST(OccludingCasters, AMeshOfManyFacesOrPlanesIsNotLookedAt) {
   const DiskLight above{{0, 50, 0}, {0, -1, 0}, 1.0};
   const Scene fine = testing::data_scene("bunny-small"), round = testing::data_scene("sphere-small");
   for (const Scene* scene : {&fine, &round})
-    EXPECT_FALSE(is_idle(scene->objects.back().mesh, above, {{0, 40, 0, 1}}));
-  EXPECT_FALSE(is_idle(TriangleMesh(), above, {{0, 40, 0, 1}}));
+    EXPECT_FALSE(cannot_occlude(scene->objects.back().mesh, above, {{0, 40, 0, 1}}));
+  EXPECT_FALSE(cannot_occlude(TriangleMesh(), above, {{0, 40, 0, 1}}));
 }
 
-TEST(IdleCasters, AFloorThatCastsChangesNothingOfTheDBuffer) {
+TEST(OccludingCasters, AFloorThatCastsChangesNothingOfTheDBuffer) {
   const auto context = gl::make_context(gl::Backend::kOsMesa);
   for (const char* name : {"cube-medium", "torus-small", "boxes-large"}) {
     Scene scene = testing::data_scene(name);
-    const auto render = [&](int& idle) {
+    const auto render = [&](int& left_out) {
       const testing::View view(scene, 160, 120);
       DBuffer buffer(*context, scene, view.rays);
       buffer.set_surface(view.surface);
       DBufferFrame frame = buffer.render(scene.light, {});
-      idle = frame.counts["idle_casters"];
+      left_out = frame.counts["casters_that_cannot_occlude"];
       return frame.visibility;
     };
     int none = -1, one = -1;
@@ -79,7 +80,7 @@ TEST(IdleCasters, AFloorThatCastsChangesNothingOfTheDBuffer) {
   }
 }
 
-TEST(IdleCasters, AFloorThatCastsChangesNothingOfSilhouettes) {
+TEST(OccludingCasters, AFloorThatCastsChangesNothingOfSilhouettes) {
   for (const char* name : {"cube-medium", "torus-small", "boxes-large", "foliage-medium"}) {
     Scene scene = testing::data_scene(name);
     const auto render = [&] {
@@ -89,8 +90,8 @@ TEST(IdleCasters, AFloorThatCastsChangesNothingOfSilhouettes) {
     const SilhouetteResult without = render();
     scene.objects.front().casts = true;
     const SilhouetteResult with = render();
-    EXPECT_EQ(without.counts.idle_casters, 0u) << name;
-    EXPECT_EQ(with.counts.idle_casters, 1u) << name;
+    EXPECT_EQ(without.counts.casters_that_cannot_occlude, 0u) << name;
+    EXPECT_EQ(with.counts.casters_that_cannot_occlude, 1u) << name;
     EXPECT_EQ(with.counts.band_edges, without.counts.band_edges) << name;
     std::size_t differ = 0;
     for (std::size_t i = 0; i < with.visibility.size(); ++i) {

@@ -38,13 +38,13 @@ class ReceiverCloud {
 class CasterPlanes {
  public:
   /// Planes and receivers are in the frame (p - origin) · scale, p in the scene. Cost O(1): a mesh of more
-  /// than a hundred faces or of more than sixteen planes is not looked at, and never idle.
+  /// than a hundred faces or of more than sixteen planes is not looked at, and never left out.
   CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double scale);
   /// Of the image, in the frame.
   void set_receivers(const ReceiverCloud& receivers);
   /// True where every face is separated from the light and from the receivers by one of the planes; receivers
   /// may lie behind it by `slack`, in the frame. Before receivers are set there are none. Cost O(1).
-  bool is_idle(const DiskLight& light, double slack = 0.0) const;
+  bool cannot_occlude(const DiskLight& light, double slack = 0.0) const;
 
  private:
   struct Plane {
@@ -64,6 +64,7 @@ class CasterPlanes {
 
 /// One flag an object: casters that hide nothing from the receivers, which are moved off their surfaces as
 /// the origins of rays are. Cost O(objects), and O(pixels) where a floor, wall or room casts.
-std::vector<char> find_idle_casters(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface);
+std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const RayFrame& frame,
+                                                   const SurfaceBuffer& surface);
 
 }  // namespace penumbra::detail

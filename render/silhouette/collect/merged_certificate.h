@@ -1,4 +1,4 @@
-// Accurate rung, the certificate again, for merged edges (merged_edges.h): which of them may stand for a
+// Silhouette method, the certificate again, for merged edges (merged_edges.h): which of them may stand for a
 // silhouette across the disk although they are none themselves.
 //
 // In: a band of merged edges, receivers. Out: whether what an edge stands for is none for a receiver for
@@ -17,15 +17,15 @@
 namespace penumbra::detail {
 
 /// For one tile after the other, with memory kept between them.
-class Doubts {
+class UncertainEdges {
  public:
   /// A tile, by its list of blocks of the band's edges and its shaft; all three are referred to.
-  void begin(const Band& band, const std::vector<Siblings>& list, const Shaft& shaft);
+  void begin_tile(const Band& band, const std::vector<NodeMask>& list, const Shaft& shaft);
   /// Some of the tile's receivers that lie close together: the next ones to be asked for.
-  void look_at(std::span<const Receiver> part);
+  void begin_part(std::span<const TileReceiver> part);
   /// Whether no edge of the list stands for a silhouette across the disk, with the certificate's slack;
   /// `receiver` is one of the part's.
-  bool are_none(const Receiver& receiver, double slack);
+  bool are_none(const TileReceiver& receiver, double slack);
 
  private:
   /// Some edges of a block, as bits.
@@ -33,21 +33,21 @@ class Doubts {
     std::int32_t block;
     std::uint32_t edges;
   };
-  void gather();
+  void collect();
   void narrow();
   /// What of them is left for a shaft.
   void add(std::int32_t block, std::uint32_t edges, const Shaft& shaft, const FloatShaft& in_float,
            std::vector<EdgesOfBlock>& out) const;
 
   const Band* band_ = nullptr;
-  const std::vector<Siblings>* list_ = nullptr;
+  const std::vector<NodeMask>* list_ = nullptr;
   const Shaft* shaft_ = nullptr;
-  std::span<const Receiver> part_;
-  bool gathered_ = false, narrowed_ = false;
+  std::span<const TileReceiver> part_;
+  bool collected_ = false, narrowed_ = false;
   std::vector<EdgesOfBlock> of_tile_, of_part_;
 };
 
 /// Of one merged edge.
-bool is_certainly_none(const Band& band, std::size_t i, const Receiver& receiver, double slack);
+bool is_certainly_no_silhouette(const Band& band, std::size_t i, const TileReceiver& receiver, double slack);
 
 }  // namespace penumbra::detail
