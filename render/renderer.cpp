@@ -51,6 +51,12 @@ nlohmann::json to_json(const std::vector<StageTime>& stages) {
   return out;
 }
 
+nlohmann::json to_json(const Counts& counts) {
+  auto out = nlohmann::json::object();
+  for (const Count& c : counts) std::visit([&](const auto& value) { out[c.name] = value; }, c.value);
+  return out;
+}
+
 nlohmann::json to_json(const SilhouetteCounts& c) {
   return {{"faces", c.faces},
           {"casters_that_cannot_occlude", c.casters_that_cannot_occlude},
@@ -189,8 +195,8 @@ std::vector<float> Renderer::State::by_d_buffer(const RenderOptions& options, co
   if (options.keep_textures) textures = d_buffer->textures();
   clock.restart();
   stats["renderer"] = context->renderer();
-  stats["counts"] = frame.counts;
-  stats["options"] = {{"dbuffer_size", frame.counts.at("buffer_size")},
+  stats["counts"] = to_json(frame.counts);
+  stats["options"] = {{"dbuffer_size", stats["counts"]["buffer_size"]},
                       {"dbuffer", name_in(d_buffer_contents(), options.d_buffer.contents)},
                       {"dbuffer_entries", options.d_buffer.entries},
                       {"visibility", name_in(visibility_curves(), options.d_buffer.curve)},
@@ -236,7 +242,7 @@ std::vector<float> Renderer::State::by_occlusion_textures(const RenderOptions& o
   if (options.keep_textures) textures = std::move(frame.textures);
   for (const StageTime& s : frame.stages) clock.add(s);
   stats["renderer"] = context->renderer();
-  stats["counts"] = frame.counts;
+  stats["counts"] = to_json(frame.counts);
   stats["options"] = to_json(o);
   stats["options"]["backend"] = gl::name_of(options.backend);
   return std::move(frame.visibility);

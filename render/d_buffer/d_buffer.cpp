@@ -78,7 +78,7 @@ struct DBuffer::Impl {
   void find_outlines(const DiskLight& light, StageClock& clock);
   void find_boundaries(const DiskLight& light, Plan& plan, StageClock& clock) const;
   void find_geometry(Plan& plan) const;
-  static nlohmann::json count(const Plan& plan);
+  static Counts count(const Plan& plan);
   detail::UvBounds caster_window(const detail::LightSpace& space, double far_weight) const;
   double far_weight(const detail::LightSpace& space) const;
   void find_entries(const DiskLight& light, Plan& plan, StageClock& clock);
@@ -274,7 +274,7 @@ void DBuffer::Impl::find_geometry(Plan& plan) const {
   detail::sort_by_geometry(plan.geometry);
 }
 
-nlohmann::json DBuffer::Impl::count(const Plan& plan) {
+Counts DBuffer::Impl::count(const Plan& plan) {
   std::size_t faces = 0, mixed = 0, umbra = 0, penumbra = 0, band = 0, facets = 0, cones = 0;
   for (const Boundary& b : plan.boundaries) {
     faces += b.outline->classes.faces.size();
@@ -357,10 +357,11 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   frame.visibility = shading.shade(light, plan.view(), tiles, *layers, passes.records(), options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
-  frame.counts["casters_that_cannot_occlude"] = std::ranges::count_if(casters, &Caster::idle);
-  frame.counts["sampled_pixels"] = shading.sampled();
-  frame.counts["buffer_size"] = options.size;
-  frame.counts["buffer_bytes"] = layers->bytes();
+  const auto idle = static_cast<std::uint64_t>(std::ranges::count_if(casters, &Caster::idle));
+  frame.counts.push_back({"casters_that_cannot_occlude", idle});
+  frame.counts.push_back({"sampled_pixels", shading.sampled()});
+  frame.counts.push_back({"buffer_size", static_cast<std::uint64_t>(options.size)});
+  frame.counts.push_back({"buffer_bytes", layers->bytes()});
   frame.stages = clock.stages();
   return frame;
 }

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "penumbra/render/scene/scene.h"
 #include "render/gl/context.h"
 #include "render/receivers/surface_buffer.h"
+#include "render/support/counts.h"
 #include "render/support/named_value.h"
 #include "render/support/stage_clock.h"
 #include "render/support/texture_picture.h"
@@ -74,7 +74,7 @@ int d_buffer_size_for(int width, int height);
 struct DBufferFrame {
   std::vector<float> visibility;  ///< one per pixel of the surface buffer; 1 where nothing is seen
   std::vector<StageTime> stages;
-  nlohmann::json counts;  ///< faces by class, edges, facets, triangles drawn, targets, bytes
+  Counts counts;  ///< faces by class, edges, facets, triangles drawn, targets, bytes
 };
 
 class DBuffer {

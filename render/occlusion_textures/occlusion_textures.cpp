@@ -167,7 +167,7 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, con
   const detail::SliceSpace space(area_light(scene), scale);
   const Plan plan = this->plan(space, options);
   clock.finish("frustum");
-  frame.counts = {{"casters", casters.size()}, {"slices_in_use", 0}, {"texture_bytes", 0}};
+  std::uint64_t used = 0, bytes = 0;
   std::unique_ptr<detail::OcclusionLookup> lookup;
   if (!plan.nothing_casts) {
     const LightFrame& f = space.light.axes;
@@ -177,21 +177,24 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, con
     report(progress, 0.0);
     arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
     clock.finish("prefilter");
-    const auto used = std::count_if(slices.begin(), slices.end(), [](const auto& s) { return !s.empty(); });
-    const auto thin =
-        std::count_if(plan.drawings.begin(), plan.drawings.end(), [](const auto& d) { return d.fills_next; });
-    frame.counts["slices_in_use"] = used;
-    frame.counts["thin_casters"] = thin;
-    frame.counts["slice_thickness"] = plan.frustum.thickness / space.scale;
-    frame.counts["cop_offset"] = plan.frustum.narrowing > 0.0
-                                     ? nlohmann::json(1.0 / (plan.frustum.narrowing * space.scale))
-                                     : nlohmann::json("orthographic");
-    frame.counts["texture_bytes"] = lookup->bytes();
+    used = static_cast<std::uint64_t>(
+        std::ranges::count_if(slices, [](const auto& texels) { return !texels.empty(); }));
+    bytes = lookup->bytes();
+    const auto thin = std::ranges::count_if(plan.drawings, &detail::CasterDrawing::fills_next);
+    frame.counts.push_back({"thin_casters", static_cast<std::uint64_t>(thin)});
+    frame.counts.push_back({"slice_thickness", plan.frustum.thickness / space.scale});
+    if (plan.frustum.narrowing > 0.0)
+      frame.counts.push_back({"cop_offset", 1.0 / (plan.frustum.narrowing * space.scale)});
+    else
+      frame.counts.push_back({"cop_offset", "orthographic"});
     for (std::size_t i = 0; i < slices.size(); ++i)
       if (!slices[i].empty())
         frame.textures.push_back(
             {"slice " + std::to_string(i + 1), options.texture_size, std::move(slices[i])});
   }
+  frame.counts.push_back({"casters", casters.size()});
+  frame.counts.push_back({"slices_in_use", used});
+  frame.counts.push_back({"texture_bytes", bytes});
   look_up(space, surface, lookup.get(), progress, frame.visibility);
   clock.finish("visibility");
   gl::require_no_error(context.functions(), "rendering occlusion textures");

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,6 +24,7 @@
 #include "penumbra/render/scene/scene.h"
 #include "render/gl/context.h"
 #include "render/receivers/surface_buffer.h"
+#include "render/support/counts.h"
 #include "render/support/named_value.h"
 #include "render/support/stage_clock.h"
 #include "render/support/texture_picture.h"
@@ -89,7 +89,7 @@ struct OcclusionOptions {
 struct OcclusionFrame {
   std::vector<float> visibility;  ///< one per pixel of the surface; 1 where nothing is seen
   std::vector<StageTime> stages;
-  nlohmann::json counts;                 ///< slices used, frustum, bytes
+  Counts counts;                         ///< slices used, frustum, bytes
   std::vector<TexturePicture> textures;  ///< coverage of each slice in use, from the light on
 };
 

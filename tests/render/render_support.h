@@ -9,6 +9,7 @@
 #include <numeric>
 #include <random>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "render/light/disk_area.h"
 #include "render/rays/reference.h"
 #include "render/receivers/surface_buffer.h"
+#include "render/support/counts.h"
 
 namespace penumbra::testing {
 
@@ -105,6 +107,13 @@ inline Pixels pixels_of(const SurfaceBuffer& surface, int object) {
   for (std::uint32_t i = 0; i < surface.size(); ++i)
     if (surface.object[i] == object) pixels.push_back(i);
   return pixels;
+}
+
+/// A frame's count that is an integer; an exception for one that is missing or not an integer.
+inline std::uint64_t count_in(const Counts& counts, std::string_view name) {
+  const Count* count = find(counts, name);
+  if (!count) throw std::out_of_range("no count " + std::string(name));
+  return std::get<std::uint64_t>(count->value);
 }
 
 /// A scene as the camera sees it, with references traced only where penumbra may be.

@@ -285,7 +285,8 @@ TEST(DBuffer, WideScenesUseAHemicubeThatAgreesWithOnePerspective) {
     const Scene scene = box_at_tangent(detail::kWidestWindow * (wide ? 1.02 : 0.95));
     const View view(scene, 240, 180);
     const DBufferFrame frame = draw(scene, view.surface, 1024);
-    EXPECT_EQ(frame.counts["targets"], wide ? 2 : 1) << "the front, and the side that the box is on";
+    EXPECT_EQ(testing::count_in(frame.counts, "targets"), wide ? 2u : 1u)
+        << "the front, and the side that the box is on";
     EXPECT_TRUE(all_in_range(frame.visibility));
     const ErrorFigures figures =
         error_over_penumbra(view, frame.visibility, testing::pixels_of(view.surface, 0));
@@ -337,7 +338,7 @@ TEST(DBuffer, OneEdgeIsTheChordFormula) {
   // is drawn.
   for (const int size : {1024, 100, 40}) {
     const DBufferFrame frame = draw(scene, testing::receivers(points, Vec3(0, 0, -1), 256), size);
-    EXPECT_EQ(frame.counts["targets"], 1);
+    EXPECT_EQ(testing::count_in(frame.counts, "targets"), 1u);
     const double rms = testing::rms_difference(frame.visibility, expected);
     std::printf("one edge, penumbra %.1f texels wide: RMS difference %.2g\n", texels * (size - 4) / 1020,
                 rms);
@@ -458,7 +459,7 @@ TEST(DBuffer, ReceiversThatOneEdgeDividesAreExact) {
     const Scene scene = testing::data_scene(name);
     const View view(scene, 320, 240);
     const DBufferFrame frame = draw(scene, view.surface, 1024);
-    ASSERT_EQ(frame.counts["targets"], 1) << name;
+    ASSERT_EQ(testing::count_in(frame.counts, "targets"), 1u) << name;
     const OneEdgeOracle oracle(scene, 1024);
     Values values;
     std::vector<double> exact;
@@ -527,7 +528,7 @@ TEST(DBuffer, ZeroIsASizeByTheImage) {
   const View view(scene, 160, 120);
   const DBufferFrame by_image = draw(scene, view.surface, 0), by_number = draw(scene, view.surface, 512);
   EXPECT_EQ(by_image.visibility, by_number.visibility);
-  EXPECT_EQ(by_image.counts.at("buffer_size"), 512);
+  EXPECT_EQ(testing::count_in(by_image.counts, "buffer_size"), 512u);
 }
 
 TEST(ChooseTargets, OneWindowWhereItFitsElseFiveSides) {

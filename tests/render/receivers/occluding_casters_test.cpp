@@ -60,20 +60,20 @@ TEST(OccludingCasters, AFloorThatCastsChangesNothingOfTheDBuffer) {
   const auto context = gl::make_context(gl::Backend::kOsMesa);
   for (const char* name : {"cube-medium", "torus-small", "boxes-large"}) {
     Scene scene = testing::data_scene(name);
-    const auto render = [&](int& left_out) {
+    const auto render = [&](std::uint64_t& left_out) {
       const testing::View view(scene, 160, 120);
       DBuffer buffer(*context, scene, view.rays);
       buffer.set_surface(view.surface);
       DBufferFrame frame = buffer.render(scene.light, {});
-      left_out = frame.counts["casters_that_cannot_occlude"];
+      left_out = testing::count_in(frame.counts, "casters_that_cannot_occlude");
       return frame.visibility;
     };
-    int none = -1, one = -1;
+    std::uint64_t none = 99, one = 99;
     const testing::Values without = render(none);
     scene.objects.front().casts = true;
     const testing::Values with = render(one);
-    EXPECT_EQ(none, 0) << name;
-    EXPECT_EQ(one, 1) << name;
+    EXPECT_EQ(none, 0u) << name;
+    EXPECT_EQ(one, 1u) << name;
     std::size_t differ = 0;
     for (std::size_t i = 0; i < with.size(); ++i) differ += std::abs(with[i] - without[i]) > 1e-3f;
     EXPECT_LE(differ, with.size() / 1000) << name;
