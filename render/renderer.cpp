@@ -234,11 +234,11 @@ std::vector<float> Renderer::State::by_occlusion_textures(const RenderOptions& o
                                                           nlohmann::json& stats) {
   gl::Context& gl = context_for(options);
   if (!occlusion) {
-    occlusion = std::make_unique<OcclusionTextures>(gl, scene, options.threads);
+    occlusion = std::make_unique<OcclusionTextures>(gl, scene, rays);
     clock.restart();  // one-time set-up, not a stage
   }
   const OcclusionOptions& o = options.occlusion;
-  OcclusionFrame frame = occlusion->render(surface, o, options.progress);
+  OcclusionFrame frame = occlusion->render(area_light(scene), surface, o, options.progress);
   if (options.keep_textures) textures = std::move(frame.textures);
   for (const StageTime& s : frame.stages) clock.add(s);
   stats["renderer"] = context->renderer();

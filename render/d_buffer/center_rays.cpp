@@ -11,7 +11,7 @@
 
 #include "render/light/disk_area.h"
 #include "render/light/disk_samples.h"
-#include "render/rays/ray_scene_impl.h"
+#include "render/rays/ray_packets.h"
 #include "render/support/vector_clones.h"
 
 namespace penumbra {
@@ -23,9 +23,10 @@ struct detail::ReceiverLanes {
 
 namespace {
 
+using detail::RayPacket;
 using detail::ReceiverLanes;
 
-constexpr std::size_t kLanes = 16;
+constexpr std::size_t kLanes = RayPacket::kRays;
 constexpr int kBlock = 4;  // pixels a side that share a packet
 
 struct LocalDisk {
@@ -63,19 +64,20 @@ PENUMBRA_INLINE AboveHorizon above_horizon_of(const ReceiverLanes& from, std::si
   return out;
 }
 
-/// Directions to the points aimed at; 0 in `wanted` where no ray is needed.
+/// Rays to the points aimed at; those that need not be traced are not wanted.
 PENUMBRA_VECTOR_CLONES
-void aim(const ReceiverLanes& from, const LocalDisk& disk, RTCRay16& packet, int* wanted) {
+void aim(const ReceiverLanes& from, const LocalDisk& disk, RayPacket& packet) {
   for (std::size_t k = 0; k < kLanes; ++k) {
     const AboveHorizon seen = above_horizon_of(from, k, disk);
     const bool lifted = seen.height <= 0.0f && seen.height + disk.radius * seen.size > 0.0f;
     // From the center up to the middle between horizon (-height / size) and top (radius).
     const float lift = lifted ? 0.5f * (disk.radius - seen.height / seen.size) / seen.size : 0.0f;
-    packet.dir_x[k] = seen.x + lift * seen.ux;
-    packet.dir_y[k] = seen.y + lift * seen.uy;
-    packet.dir_z[k] = seen.z + lift * seen.uz;
-    packet.tfar[k] = ray_end(seen.before);
-    wanted[k] = (seen.height > 0.0f || lifted) && !seen.behind ? -1 : 0;
+    packet.from_x[k] = from.x[k], packet.from_y[k] = from.y[k], packet.from_z[k] = from.z[k];
+    packet.way_x[k] = seen.x + lift * seen.ux;
+    packet.way_y[k] = seen.y + lift * seen.uy;
+    packet.way_z[k] = seen.z + lift * seen.uz;
+    packet.end[k] = ray_end(seen.before);
+    packet.wanted[k] = (seen.height > 0.0f || lifted) && !seen.behind ? -1 : 0;
   }
 }
 
@@ -98,30 +100,6 @@ void horizon_chords(const ReceiverLanes& from, const LocalDisk& disk, float* del
 float open_fraction(float delta) {
   return delta >= 1.0f ? 1.0f : delta > -1.0f ? static_cast<float>(half_plane_area(delta)) : 0.0f;
 }
-
-/// Sixteen rays from receivers.
-struct Packet {
-  alignas(64) RTCRay16 ray{};
-  alignas(64) int wanted[kLanes];
-  RTCIntersectContext context;
-
-  Packet() {
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  }
-
-  /// Whether something lies on the way of lane k, after `trace`.
-  bool is_hidden(std::size_t k) const {
-    return wanted[k] && ray.tfar[k] < 0.0f;  // Embree sets it to -infinity at a hit
-  }
-  void trace(const ReceiverLanes& from, RTCScene casters) {
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      ray.org_x[k] = from.x[k], ray.org_y[k] = from.y[k], ray.org_z[k] = from.z[k];
-      ray.tnear[k] = 0.0f, ray.mask[k] = ~0u;
-    }
-    rtcOccluded16(wanted, casters, &context, &ray);
-  }
-};
 
 }  // namespace
 
@@ -167,7 +145,7 @@ void CenterRays::above_horizon(const DiskLight& light, std::vector<float>& out) 
       for (std::size_t k = 0; k < count; ++k) out[pixel_[first + k]] = open_fraction(delta[k]);
     }
   };
-  rays_.impl().arena.execute(
+  rays_.arena().execute(
       [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 256), look); });
 }
 
@@ -175,18 +153,17 @@ void CenterRays::center_seen(const DiskLight& light, std::vector<float>& out) co
   out.assign(pixels_, 1.0f);
   const LocalDisk disk = local_disk(light, rays_.frame());
   const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
-    Packet packet;
+    RayPacket packet;
     for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
       const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
-      const ReceiverLanes from = lanes(first);
-      aim(from, disk, packet.ray, packet.wanted);
+      aim(lanes(first), disk, packet);
       for (std::size_t k = count; k < kLanes; ++k) packet.wanted[k] = 0;
-      packet.trace(from, rays_.impl().casters);
+      detail::find_occluded(rays_, packet, detail::Coherence::kCoherent);
       for (std::size_t k = 0; k < count; ++k)
-        if (packet.is_hidden(k)) out[pixel_[first + k]] = 0.0f;
+        if (packet.is_occluded(k)) out[pixel_[first + k]] = 0.0f;
     }
   };
-  rays_.impl().arena.execute(
+  rays_.arena().execute(
       [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 64), trace); });
 }
 
@@ -230,26 +207,25 @@ std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
     const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
     if (!(open > 0.0f)) return 0.0f;
     const float end = ray_end(above_horizon_of(lanes(at), 0, disk).before);
-    alignas(64) RTCRay16 ray{};
-    alignas(64) int above[kLanes];
+    RayPacket packet;
     for (std::size_t k = 0; k < kLanes; ++k) {
       const glm::vec3 way = center + points[k].x * u + points[k].y * v - from;
-      ray.org_x[k] = from.x, ray.org_y[k] = from.y, ray.org_z[k] = from.z;
-      ray.dir_x[k] = way.x, ray.dir_y[k] = way.y, ray.dir_z[k] = way.z;
-      ray.tfar[k] = end, ray.mask[k] = ~0u;
-      above[k] = glm::dot(way, n) > 0.0f ? -1 : 0;
+      packet.from_x[k] = from.x, packet.from_y[k] = from.y, packet.from_z[k] = from.z;
+      packet.way_x[k] = way.x, packet.way_y[k] = way.y, packet.way_z[k] = way.z;
+      packet.end[k] = end;
+      packet.wanted[k] = glm::dot(way, n) > 0.0f ? -1 : 0;
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags =
-        RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;  // they graze casters: a tenth faster than coherent
-    rtcOccluded16(above, rays_.impl().casters, &context, &ray);
-    int asked = 0, seen = 0;
-    for (std::size_t k = 0; k < kLanes; ++k) asked += above[k] != 0, seen += above[k] && ray.tfar[k] >= 0.0f;
-    return asked > 0 ? open * static_cast<float>(seen) / static_cast<float>(asked) : open;
+    // They graze casters: a tenth faster than as coherent rays.
+    detail::find_occluded(rays_, packet, detail::Coherence::kIncoherent);
+    int traced = 0, seen = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      traced += packet.wanted[k] != 0;
+      seen += packet.wanted[k] && !packet.is_occluded(k);
+    }
+    return traced > 0 ? open * static_cast<float>(seen) / static_cast<float>(traced) : open;
   };
   std::vector<float> out(pixels.size());
-  rays_.impl().arena.execute([&] {
+  rays_.arena().execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 8), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) out[i] = look(pixels[i]);
     });

@@ -13,7 +13,6 @@
 #include "render/d_buffer/passes.h"
 #include "render/d_buffer/pictures.h"
 #include "render/gl/state_scope.h"
-#include "render/rays/ray_scene_impl.h"
 #include "render/receivers/occluding_casters.h"
 #include "render/support/background.h"
 
@@ -110,7 +109,7 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
       shading(gl),
       framebuffer(gl, Object::Kind::kFramebuffer) {
   const Bounds bounds = scene.caster_bounds();
-  origin = bounds.empty() ? scene.light.center : bounds.center();
+  origin = bounds.empty() ? Vec3(0.0) : bounds.center();
   std::vector<glm::vec3> points;
   std::vector<std::uint32_t> indices;
   std::vector<detail::CasterRange> ranges;
@@ -333,7 +332,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   choose_view(options, plan);
   clock.finish("receivers");
   {
-    detail::Background finding(rays.impl().arena, [&] { find_entries(light, plan, clock); });
+    detail::Background finding(rays.arena(), [&] { find_entries(light, plan, clock); });
     prepare_layers(plan, options);
     passes.draw_occluders(plan.targets, plan.axes, plan.offset, plan.receivers, *layers, options);
     gl.Flush();
@@ -345,9 +344,8 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   report(progress, 0.3);
   std::vector<glm::vec2> tiles;
   {
-    detail::Background choosing(rays.impl().arena, [&] {
-      tiles = shading.tiles(plan.view(), plan.receivers, plan.geometry, options);
-    });
+    detail::Background choosing(
+        rays.arena(), [&] { tiles = shading.tiles(plan.view(), plan.receivers, plan.geometry, options); });
     passes.upload_entries(plan.geometry);
     passes.draw_entries(plan.targets, *layers, options);
     gl.Finish();

@@ -1,7 +1,6 @@
 #include "render/occlusion_textures/occlusion_textures.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -12,7 +11,6 @@
 #include "penumbra/mesh/error.h"
 #include "render/gl/state_scope.h"
 #include "render/occlusion_textures/lookup.h"
-#include "render/rays/ray_scene.h"
 #include "render/shading/shading.h"
 
 namespace penumbra {
@@ -35,8 +33,8 @@ void require_valid(const OcclusionOptions& o) {
 }  // namespace
 
 struct OcclusionTextures::Impl {
-  Impl(gl::Context& context_, const Scene& scene_, int threads);
-  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+  Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_);
+  OcclusionFrame render(const AreaLight& light, const SurfaceBuffer& surface, const OcclusionOptions& options,
                         const Progress& progress);
 
   /// What one frame knows before anything is drawn.
@@ -55,21 +53,18 @@ struct OcclusionTextures::Impl {
 
   gl::Context& context;
   const Scene& scene;
+  const RayScene& rays;
   Vec3 origin;  ///< uploaded points: (world - origin) · scale
   double scale;
   std::vector<const TriangleMesh*> casters;
   std::vector<double> thickness;  ///< one per caster
   std::unique_ptr<detail::OcclusionMasks> masks;
-  mutable tbb::task_arena arena;
 };
 
-OcclusionTextures::Impl::Impl(gl::Context& context_, const Scene& scene_, int threads)
-    : context(context_),
-      scene(scene_),
-      scale(ray_frame(scene_).scale),
-      arena(threads > 0 ? threads : tbb::task_arena::automatic) {
+OcclusionTextures::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_)
+    : context(context_), scene(scene_), rays(rays_), scale(rays_.frame().scale) {
   const Bounds bounds = scene.caster_bounds();
-  origin = bounds.empty() ? scene.light.center : bounds.center();
+  origin = bounds.empty() ? Vec3(0.0) : bounds.center();
   std::vector<glm::vec3> points;
   std::vector<std::uint32_t> indices;
   std::vector<detail::MaskRange> ranges;
@@ -152,7 +147,7 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Sur
   const int rows = (surface.height + kTile - 1) / kTile;
   for (int first = 0; first < rows; first += kRowsAtOnce) {
     report(progress, static_cast<double>(first) / rows);
-    arena.execute([&] {
+    rays.arena().execute([&] {
       tbb::parallel_for(first, std::min(rows, first + kRowsAtOnce), [&](int row) {
         for (int left = 0; left < surface.width; left += kTile) tile(left, row * kTile);
       });
@@ -160,11 +155,11 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Sur
   }
 }
 
-OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
-                                               const Progress& progress) {
+OcclusionFrame OcclusionTextures::Impl::render(const AreaLight& light, const SurfaceBuffer& surface,
+                                               const OcclusionOptions& options, const Progress& progress) {
   OcclusionFrame frame;
   StageClock clock;
-  const detail::SliceSpace space(area_light(scene), scale);
+  const detail::SliceSpace space(light, scale);
   const Plan plan = this->plan(space, options);
   clock.finish("frustum");
   std::uint64_t used = 0, bytes = 0;
@@ -175,7 +170,8 @@ OcclusionFrame OcclusionTextures::Impl::render(const SurfaceBuffer& surface, con
     auto slices =
         masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
     report(progress, 0.0);
-    arena.execute([&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
+    rays.arena().execute(
+        [&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
     clock.finish("prefilter");
     used = static_cast<std::uint64_t>(
         std::ranges::count_if(slices, [](const auto& texels) { return !texels.empty(); }));
@@ -246,22 +242,22 @@ std::span<const NamedValue<SliceFaces>> slice_faces() {
   return kNames;
 }
 
-OcclusionTextures::OcclusionTextures(gl::Context& context, const Scene& scene, int threads) {
+OcclusionTextures::OcclusionTextures(gl::Context& context, const Scene& scene, const RayScene& rays) {
   context.make_current();
   const gl::StateScope scope(context.functions());
-  impl_ = std::make_unique<Impl>(context, scene, threads);
+  impl_ = std::make_unique<Impl>(context, scene, rays);
 }
 
 OcclusionTextures::~OcclusionTextures() {
   if (impl_) impl_->context.make_current();
 }
 
-OcclusionFrame OcclusionTextures::render(const SurfaceBuffer& surface, const OcclusionOptions& options,
-                                         const Progress& progress) {
+OcclusionFrame OcclusionTextures::render(const AreaLight& light, const SurfaceBuffer& surface,
+                                         const OcclusionOptions& options, const Progress& progress) {
   require_valid(options);
   impl_->context.make_current();
   const gl::StateScope scope(impl_->context.functions());
-  return impl_->render(surface, options, progress);
+  return impl_->render(light, surface, options, progress);
 }
 
 }  // namespace penumbra

@@ -23,6 +23,8 @@
 #include "penumbra/mesh/progress.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/gl/context.h"
+#include "render/light/area_light.h"
+#include "render/rays/ray_scene.h"
 #include "render/receivers/surface_buffer.h"
 #include "render/support/counts.h"
 #include "render/support/named_value.h"
@@ -95,13 +97,14 @@ struct OcclusionFrame {
 
 class OcclusionTextures {
  public:
-  /// Uploads the casters. `context` and `scene` must outlive this; the context is made current by each call.
-  OcclusionTextures(gl::Context& context, const Scene& scene, int threads = 0);
+  /// Uploads the casters. `context`, `scene` and `rays` must outlive this; the context is made current by each call.
+  /// Of `rays` only the scale and the threads are used.
+  OcclusionTextures(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~OcclusionTextures();
-  /// Everything is made anew for the scene's light, disk or rectangle: slices, prefilters, lookups. The light
-  /// must have an extent. Nothing behind its plane casts, and what is closer to it than 1/8192 of the scene
+  /// Everything is made anew for the light, a disk or a rectangle: slices, prefilters, lookups. The light must have an
+  /// extent. Nothing behind its plane casts, and what is closer to it than 1/8192 of the scene
   /// is cut off. Throws UsageError for options outside their range, Cancelled.
-  OcclusionFrame render(const SurfaceBuffer& surface, const OcclusionOptions& options,
+  OcclusionFrame render(const AreaLight& light, const SurfaceBuffer& surface, const OcclusionOptions& options,
                         const Progress& progress = {});
 
  private:

@@ -108,6 +108,10 @@ RayScene::RayScene(const Scene& scene, int threads) : frame_(ray_frame(scene)) {
   build_ms_ = milliseconds_since(start);
 }
 
+tbb::task_arena& RayScene::arena() const {
+  return impl_->arena;
+}
+
 double RayScene::edge_hierarchy_ms() const {
   return impl_->edges_ms();
 }

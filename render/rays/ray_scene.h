@@ -4,6 +4,8 @@
 // unit size, so that float keeps its digits where shadows are decided (`RayFrame`).
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include <memory>
 #include <span>
 
@@ -43,6 +45,8 @@ class RayScene {
   RayScene& operator=(RayScene&&) noexcept;
 
   const RayFrame& frame() const { return frame_; }
+  /// The threads that the scene was made for. Work that traces rays belongs in here: arena().execute([&] { ... }).
+  tbb::task_arena& arena() const;
   double build_ms() const { return build_ms_; }
   /// What the silhouette method's hierarchies over edges of casters took (scene_edges.h, merged_edges.h), which
   /// are made when they are first used; 0 before.

@@ -134,8 +134,8 @@ TEST(Renderer, MethodsLeaveTheContextAsItWas) {
       buffer.set_surface(view.surface);
       buffer.render(scene.light, each.options.d_buffer);
     } else if (each.options.method == Method::kOcclusionTextures) {
-      OcclusionTextures textures(*context, scene);
-      textures.render(view.surface, each.options.occlusion);
+      OcclusionTextures textures(*context, scene, view.rays);
+      textures.render(area_light(scene), view.surface, each.options.occlusion);
     } else {
       continue;
     }

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <optional>
 
-#include "render/rays/ray_scene_impl.h"
+#include "render/rays/ray_packets.h"
 
 namespace penumbra::detail {
 namespace {
@@ -15,6 +17,8 @@ namespace {
 constexpr double kClearance = 2.0 * kRayOffset;
 /// A hit this much nearer than the edge hides it; nearer ones are the edge's own faces.
 constexpr float kHidden = 1.0f - 1e-3f;
+
+constexpr float kForever = std::numeric_limits<float>::infinity();
 
 class Prober {
  public:
@@ -29,13 +33,11 @@ class Prober {
 
   /// Reach of the ray from the rim past the target.
   float reach(const Probe& probe, SupportKind kind) const {
-    RTCRayHit query{};
-    if (!aim(probe, kind, query.ray)) return std::numeric_limits<float>::infinity();
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(rays_.impl().casters, &context, &query);
-    return query.ray.tfar < kHidden ? 0.0f : query.ray.tfar;
+    const std::optional<Ray> ray = aim(probe, kind);
+    if (!ray) return kForever;
+    const std::optional<RayHit> hit = first_hit(rays_, ray->from, ray->way, kForever);
+    if (!hit) return kForever;
+    return hit->distance < kHidden ? 0.0f : hit->distance;
   }
 
   /// Leaves of an edge that crosses the light's plane its part in front.
@@ -46,8 +48,12 @@ class Prober {
   }
 
  private:
-  /// False where the contact lies on the target's own line along the rim.
-  bool aim(const Probe& probe, SupportKind kind, RTCRay& ray) const {
+  /// In the frame of the rays.
+  struct Ray {
+    glm::vec3 from, way;
+  };
+  /// None where the contact lies on the target's own line along the rim.
+  std::optional<Ray> aim(const Probe& probe, SupportKind kind) const {
     const RayFrame& frame = rays_.frame();
     const Vec3 out = axes_.u * std::cos(probe.angle) + axes_.v * std::sin(probe.angle);
     const Vec3 contact = center_ + radius_ * out;
@@ -55,18 +61,13 @@ class Prober {
     // disk.
     Vec3 beyond = glm::cross(glm::cross(axes_.w, out), probe.target - contact);
     const double size = glm::length(beyond);
-    if (!(size > 0.0)) return false;
+    if (!(size > 0.0)) return std::nullopt;
     beyond = beyond / size;
     if (glm::dot(beyond, out) < 0.0) beyond = -beyond;
     const Vec3 lit = kind == SupportKind::kPenumbra ? -beyond : beyond;
     const Vec3 from = frame.to_local(contact);
     const Vec3 way = frame.to_local(probe.target) + kClearance * lit - from;
-    ray.org_x = static_cast<float>(from.x), ray.dir_x = static_cast<float>(way.x);
-    ray.org_y = static_cast<float>(from.y), ray.dir_y = static_cast<float>(way.y);
-    ray.org_z = static_cast<float>(from.z), ray.dir_z = static_cast<float>(way.z);
-    ray.tfar = std::numeric_limits<float>::infinity();
-    ray.mask = ~0u;
-    return true;
+    return Ray{glm::vec3(from), glm::vec3(way)};
   }
 
   const RayScene& rays_;
@@ -100,7 +101,7 @@ void find_facet_reach(const TriangleMesh& mesh, const DiskLight& light, const Su
       return prober.reach({a + t * (b - a), f.rim_angle}, f.kind);
     });
   };
-  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
+  rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
 }
 
 void find_cone_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
@@ -113,7 +114,7 @@ void find_cone_reach(const TriangleMesh& mesh, const DiskLight& light, const Sup
       return prober.reach({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
     });
   };
-  rays.impl().arena.execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });
+  rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });
 }
 
 }  // namespace penumbra::detail

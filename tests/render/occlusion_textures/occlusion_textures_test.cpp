@@ -24,8 +24,9 @@ gl::Context& context() {
 
 Values draw(const Scene& scene, const SurfaceBuffer& surface, const OcclusionOptions& options = {},
             int threads = 0) {
-  OcclusionTextures textures(context(), scene, threads);
-  return textures.render(surface, options).visibility;
+  const RayScene rays(scene, threads);
+  OcclusionTextures textures(context(), scene, rays);
+  return textures.render(area_light(scene), surface, options).visibility;
 }
 
 /// A rectangular light in z = 0 that shines towards +z, and casters.
@@ -158,7 +159,8 @@ TEST(OcclusionTextures, HardCasesStayInRange) {
   const SurfaceBuffer surface = scattered_receivers(kSeed, 2'000);
   int renders = 0;
   for (const HardCase& hard : hard_cases()) {
-    OcclusionTextures textures(context(), hard.scene);
+    const RayScene rays(hard.scene, 0);
+    OcclusionTextures textures(context(), hard.scene, rays);
     for (const auto& filter : occlusion_filters())
       for (const auto& combine : occlusion_combines())
         for (const auto& kernel : occlusion_kernels())
@@ -172,7 +174,7 @@ TEST(OcclusionTextures, HardCasesStayInRange) {
             if (offset > 0.0) options.cop_offset = offset;
             options.range = renders % 2 ? SliceRange::kScene : SliceRange::kCasters;
             options.coverage = renders % 3 ? SliceCoverage::kBinary : SliceCoverage::kArea;
-            ASSERT_TRUE(all_in_range(textures.render(surface, options).visibility))
+            ASSERT_TRUE(all_in_range(textures.render(area_light(hard.scene), surface, options).visibility))
                 << hard.name << ", " << filter.name << ", " << combine.name << ", offset " << offset
                 << ", seed " << kSeed;
             ++renders;
