@@ -22,7 +22,8 @@ set(PENUMBRA_PUBLIC_INCLUDE ${PROJECT_BINARY_DIR}/include)
 
 # penumbra_library(NAME FOLDERS... [PUBLIC HEADERS...]): the static library penumbra_NAME (alias penumbra::NAME) from every
 # .cpp of the folders. Folders and headers are relative to the calling folder. The headers are public: they are linked into
-# PENUMBRA_PUBLIC_INCLUDE and installed; all others are internal.
+# PENUMBRA_PUBLIC_INCLUDE and installed; all others are internal. The global property PENUMBRA_PUBLIC_HEADERS names the
+# public headers of all libraries, PENUMBRA_PUBLIC_HEADERS_NAME those of one.
 function(penumbra_library name)
   cmake_parse_arguments(ARG "" "" "FOLDERS;PUBLIC" ${ARGN})
   set(sources)
@@ -37,7 +38,9 @@ function(penumbra_library name)
                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(penumbra_${name} PRIVATE $<BUILD_INTERFACE:penumbra_internal>)
   target_compile_features(penumbra_${name} PUBLIC cxx_std_20)
-  install(TARGETS penumbra_${name} EXPORT penumbra-targets)
+  if(PENUMBRA_INSTALL)
+    install(TARGETS penumbra_${name} EXPORT penumbra-${name})
+  endif()
 
   file(RELATIVE_PATH module ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   foreach(header IN LISTS ARG_PUBLIC)
@@ -45,8 +48,11 @@ function(penumbra_library name)
     file(MAKE_DIRECTORY ${folder})
     file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${header} ${PENUMBRA_PUBLIC_INCLUDE}/penumbra/${module}/${header} SYMBOLIC)
     get_filename_component(installed penumbra/${module}/${header} DIRECTORY)
-    install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${installed})
+    if(PENUMBRA_INSTALL)
+      install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${installed})
+    endif()
     set_property(GLOBAL APPEND PROPERTY PENUMBRA_PUBLIC_HEADERS ${module}/${header})
+    set_property(GLOBAL APPEND PROPERTY PENUMBRA_PUBLIC_HEADERS_${name} ${module}/${header})
   endforeach()
 endfunction()
 

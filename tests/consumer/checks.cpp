@@ -1,5 +1,5 @@
-#include <mesh/shapes.h>
-#include <volumes/checks/checks.h>
+#include <penumbra/mesh/shapes.h>
+#include <penumbra/volumes/checks/checks.h>
 
 int main() {
   const penumbra::TriangleMesh box = penumbra::make_box({0, 1, 0}, {1, 1, 1});

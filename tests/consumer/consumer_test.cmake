@@ -1,10 +1,54 @@
-# A project that uses the installed library: see run_consumer.cmake. And its source is the README's sample.
-add_test(NAME consumer.find_package
-         COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/consumer
-                 -DWORK=${CMAKE_CURRENT_BINARY_DIR}/consumer -DGENERATOR=${CMAKE_GENERATOR}
-                 -DCOMPILER=${CMAKE_CXX_COMPILER} -P ${CMAKE_CURRENT_SOURCE_DIR}/consumer/run_consumer.cmake)
-add_test(NAME consumer.readme_sample
-         COMMAND ${CMAKE_COMMAND} -DREADME=${PROJECT_SOURCE_DIR}/README.md
-                 -DSAMPLE=${CMAKE_CURRENT_SOURCE_DIR}/consumer/main.cpp
-                 -P ${CMAKE_CURRENT_SOURCE_DIR}/consumer/readme_sample.cmake)
-set_tests_properties(consumer.find_package consumer.readme_sample PROPERTIES TIMEOUT 300)
+# Projects that use the library: installed, by CMake and by pkg-config, one component each; and as a folder of their own.
+set(consumer_dir ${CMAKE_CURRENT_LIST_DIR})
+set(consumer_work ${CMAKE_CURRENT_BINARY_DIR}/consumer)
+set(consumer_arguments -DSOURCE=${consumer_dir} -DWORK=${consumer_work} -DGENERATOR=${CMAKE_GENERATOR}
+                       -DCOMPILER=${CMAKE_CXX_COMPILER})
+set(consumer_components)
+foreach(component mesh volumes checks visibility render)
+  if(TARGET penumbra_${component})
+    list(APPEND consumer_components ${component})
+    get_property(headers GLOBAL PROPERTY PENUMBRA_PUBLIC_HEADERS_${component})
+    list(TRANSFORM headers REPLACE "(.+)" "#include <penumbra/\\1>\n")
+    list(JOIN headers "" headers)
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/consumer_headers/${component}.cpp "${headers}")
+  endif()
+endforeach()
+
+# consumer_test(NAME SCRIPT [-DVARIABLE=VALUE...])
+function(consumer_test name script)
+  add_test(NAME consumer.${name} COMMAND ${CMAKE_COMMAND} ${consumer_arguments} ${ARGN} -P ${consumer_dir}/${script}.cmake)
+  set_tests_properties(consumer.${name} PROPERTIES TIMEOUT 300)
+endfunction()
+
+get_property(headers GLOBAL PROPERTY PENUMBRA_PUBLIC_HEADERS)
+list(JOIN headers "\n" headers)
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/consumer_headers/all.txt "${headers}\n")
+consumer_test(install install -DBUILD=${PROJECT_BINARY_DIR} -DHEADERS=${CMAKE_CURRENT_BINARY_DIR}/consumer_headers/all.txt)
+set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP penumbra_installed)
+
+# What a program with all of a component must not link, and what it must link, which shows that looking works.
+set(pictures "GL|GLX|OpenGL|EGL|OSMesa|glfw|OpenEXR")
+set(not_linked_mesh "${pictures}|embree|tbb|gmp")
+set(not_linked_volumes "${pictures}|embree")
+set(not_linked_checks "${pictures}|embree")
+set(not_linked_visibility "${pictures}")
+set(not_linked_render "GL|GLX|OpenGL|EGL|OSMesa|glfw")
+set(linked_mesh "OpenMesh")
+set(linked_volumes "tbb")
+set(linked_checks "gmp")
+set(linked_visibility "embree")
+set(linked_render "OpenEXR")
+foreach(component IN LISTS consumer_components)
+  set(of_component -DCOMPONENT=${component} -DHEADERS=${CMAKE_CURRENT_BINARY_DIR}/consumer_headers/${component}.cpp
+                   "-DNOT_LINKED=${not_linked_${component}}")
+  consumer_test(find_package.${component} find_package ${of_component} -DLINKED=${linked_${component}})
+  consumer_test(pkg_config.${component} pkg_config ${of_component})
+  list(APPEND installed_tests consumer.find_package.${component} consumer.pkg_config.${component})
+endforeach()
+list(JOIN consumer_components " " names)
+consumer_test(dependencies dependencies "-DCOMPONENTS=${names}")
+list(APPEND installed_tests consumer.dependencies)
+set_tests_properties(${installed_tests} PROPERTIES FIXTURES_REQUIRED penumbra_installed)
+
+consumer_test(as_a_folder as_a_folder -DPENUMBRA=${PROJECT_SOURCE_DIR})
+consumer_test(readme_sample readme_sample -DREADME=${PROJECT_SOURCE_DIR}/README.md -DSAMPLE=${consumer_dir}/volumes.cpp)

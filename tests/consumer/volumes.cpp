@@ -1,5 +1,5 @@
-#include <mesh/shapes.h>
-#include <volumes/volumes.h>
+#include <penumbra/mesh/shapes.h>
+#include <penumbra/volumes/volumes.h>
 #include <iostream>
 
 int main() {

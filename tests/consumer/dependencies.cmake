@@ -1,0 +1,41 @@
+# find_package(penumbra COMPONENTS X) looks only for what X needs. Each component is found while the packages that it does
+# not need are hidden, and not found, with a message that says why, while one that it needs is hidden.
+include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
+
+# configure(FOUND COMPONENT PACKAGES...): configures SOURCE while the packages are hidden; it must succeed iff FOUND.
+function(configure found component)
+  use_folder(dependencies)
+  set(hidden)
+  foreach(package IN LISTS ARGN)
+    list(APPEND hidden -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+  endforeach()
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER} -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER}
+                          -DCMAKE_PREFIX_PATH=${WORK}/installed/prefix -DCOMPONENT=${component} ${hidden}
+                  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+  if(found AND NOT status EQUAL 0)
+    message(FATAL_ERROR "${component} is not found without \"${ARGN}\":\n${output}")
+  elseif(NOT found AND status EQUAL 0)
+    message(FATAL_ERROR "${component} is found without \"${ARGN}\"")
+  elseif(NOT found AND NOT output MATCHES "needs ${ARGN}, which is not found|no component ${component} here")
+    message(FATAL_ERROR "The message does not say why ${component} is not found without \"${ARGN}\":\n${output}")
+  endif()
+  message("${component} without \"${ARGN}\": as it should be")
+endfunction()
+
+set(hidden_mesh TBB embree OpenEXR PkgConfig CGAL)
+set(hidden_volumes embree OpenEXR PkgConfig CGAL nlohmann_json)
+set(hidden_checks embree OpenEXR PkgConfig CGAL nlohmann_json)
+set(hidden_visibility OpenEXR PkgConfig CGAL)
+set(hidden_render PkgConfig CGAL OpenGL)
+set(needed_mesh OpenMesh)
+set(needed_volumes TBB)
+set(needed_checks OpenMesh)
+set(needed_visibility embree)
+set(needed_render OpenEXR)
+separate_arguments(COMPONENTS)
+foreach(component IN LISTS COMPONENTS)
+  configure(TRUE ${component} ${hidden_${component}})
+  configure(FALSE ${component} ${needed_${component}})
+endforeach()
+configure(FALSE viewer)

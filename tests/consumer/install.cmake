@@ -1,0 +1,20 @@
+# Installs BUILD and compares the headers that are installed with those that the file HEADERS lists, the public ones. What
+# is installed is moved before it is used, so that no file of it may hold the path where it was first.
+include(${CMAKE_CURRENT_LIST_DIR}/common.cmake)
+use_folder(installed)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${FOLDER}/first)
+file(RENAME ${FOLDER}/first ${FOLDER}/prefix)
+
+file(GLOB_RECURSE installed RELATIVE ${FOLDER}/prefix/include ${FOLDER}/prefix/include/*)
+file(STRINGS ${HEADERS} public)
+list(TRANSFORM public PREPEND penumbra/)
+list(LENGTH installed count)
+list(JOIN installed "\n  " names)
+message("${count} public headers:\n  ${names}")
+set(internal ${installed})
+list(REMOVE_ITEM internal ${public})
+set(missing ${public})
+list(REMOVE_ITEM missing ${installed})
+if(internal OR missing OR count LESS 10)
+  message(FATAL_ERROR "Installed, but not public: \"${internal}\". Public, but not installed: \"${missing}\".")
+endif()
