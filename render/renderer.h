@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "penumbra/mesh/progress.h"
+#include "penumbra/mesh/stage_clock.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/d_buffer/d_buffer.h"
 #include "render/gl/context.h"
@@ -21,7 +22,6 @@
 #include "render/rays/reference.h"
 #include "render/receivers/surface_buffer.h"
 #include "render/silhouette/silhouette_visibility.h"
-#include "render/support/stage_clock.h"
 
 namespace penumbra {
 

@@ -15,12 +15,12 @@
 #include <vector>
 
 #include "penumbra/mesh/progress.h"
+#include "penumbra/mesh/stage_clock.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/gl/context.h"
 #include "render/receivers/surface_buffer.h"
 #include "render/support/counts.h"
 #include "render/support/named_value.h"
-#include "render/support/stage_clock.h"
 #include "render/support/texture_picture.h"
 
 namespace penumbra {

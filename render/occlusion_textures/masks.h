@@ -10,9 +10,9 @@
 #include <memory>
 #include <vector>
 
+#include "penumbra/mesh/stage_clock.h"
 #include "render/gl/program.h"
 #include "render/occlusion_textures/frustum.h"
-#include "render/support/stage_clock.h"
 
 namespace penumbra::detail {
 

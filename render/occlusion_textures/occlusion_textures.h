@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "penumbra/mesh/progress.h"
+#include "penumbra/mesh/stage_clock.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/gl/context.h"
 #include "render/light/area_light.h"
@@ -28,7 +29,6 @@
 #include "render/receivers/surface_buffer.h"
 #include "render/support/counts.h"
 #include "render/support/named_value.h"
-#include "render/support/stage_clock.h"
 #include "render/support/texture_picture.h"
 
 namespace penumbra {

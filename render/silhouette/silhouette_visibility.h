@@ -23,9 +23,9 @@
 #include <vector>
 
 #include "penumbra/mesh/progress.h"
+#include "penumbra/mesh/stage_clock.h"
 #include "render/rays/ray_scene.h"
 #include "render/receivers/surface_buffer.h"
-#include "render/support/stage_clock.h"
 
 namespace penumbra {
 

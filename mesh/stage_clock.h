@@ -1,4 +1,4 @@
-// Times of named stages, for --stats and benchmarks.
+// How long the named stages of a call took, as data: for reports, `--stats` and benchmarks.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,16 @@
 
 namespace penumbra {
 
-/// Milliseconds of one stage, everything finished, steady clock.
+/// The wall-clock time of one stage, from its start until all of its work is finished.
 struct StageTime {
   std::string name;
   double milliseconds;
 };
 
+/// Measures stages that follow one another. The first begins when the clock is made.
 class StageClock {
  public:
-  /// Ends the stage that began when the clock was made or last asked. Times of one name add up.
+  /// Ends the stage that began at the last call (or when the clock was made). Times of the same name add up.
   void finish(const std::string& name) {
     const auto now = std::chrono::steady_clock::now();
     const double time = std::chrono::duration<double, std::milli>(now - start_).count();
@@ -28,12 +29,12 @@ class StageClock {
     else
       same->milliseconds += time;
   }
-  /// A stage that was timed elsewhere; the clock goes on from now.
+  /// Adds a stage that was measured elsewhere. The next stage begins now.
   void add(StageTime stage) {
     stages_.push_back(std::move(stage));
     restart();
   }
-  /// Starts afresh without recording what went before.
+  /// Begins the next stage now. The time since the last call is not recorded.
   void restart() { start_ = std::chrono::steady_clock::now(); }
   const std::vector<StageTime>& stages() const { return stages_; }
 
