@@ -1,4 +1,4 @@
-// Pipeline step 3, umbra: where the caster hides the whole disk. Part of penumbra::checks.
+// Pipeline step 3, umbra: where the caster hides the whole disk.
 //
 // In: mesh, light and classes (results of volumes.h). Out: a volume inside of {O = 0}.
 //

@@ -62,9 +62,4 @@ ShadowMesh extrude_sheets(const TriangleMesh& mesh, const DiskLight& light, cons
 ShadowMesh extrude_penumbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
                             const ExtrudeOptions& options = {});
 
-/// A volume contained in the points from which the caster hides the whole disk. Without penumbra::checks it
-/// is empty and labelled `contained`, which is always true.
-ShadowMesh extrude_umbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
-                         const ExtrudeOptions& options = {});
-
 }  // namespace penumbra

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "penumbra/mesh/error.h"
+#include "volumes/cells/shadow_reach.h"
 
 namespace penumbra {
 
@@ -27,13 +28,41 @@ void require_valid(const DiskLight& light) {
 ShadowVolumes build_shadow_volumes(const TriangleMesh& mesh, const DiskLight& light,
                                    const VolumeOptions& options) {
   require_valid(light);
+  detail::require_valid(options.extrude);
   if (mesh.empty()) throw MeshError("the caster has no faces: there is nothing to cast a shadow");
+  report(options.extrude.progress, 0.0);
   ShadowVolumes result;
+  StageClock clock;
   result.classes = classify_faces(mesh, light);
+  clock.finish("classify");
   result.silhouettes = find_silhouettes(mesh, result.classes);
-  if (options.sheets) result.sheets = extrude_sheets(mesh, light, result.silhouettes, options.extrude);
-  result.penumbra = extrude_penumbra(mesh, light, result.classes, options.extrude);
-  result.umbra = extrude_umbra(mesh, light, result.classes, options.extrude);
+  clock.finish("silhouettes");
+
+  const double products = options.sheets + options.penumbra + options.umbra;
+  int finished = 0;
+  const auto extrude = [&](const char* name, const auto& make) {
+    ExtrudeOptions part = options.extrude;
+    part.progress = part_of(options.extrude.progress, finished / products, (finished + 1) / products);
+    ShadowMesh product = make(part);
+    ++finished;
+    clock.finish(name);
+    return product;
+  };
+  if (options.sheets) {
+    result.sheets = extrude("sheets", [&](const ExtrudeOptions& part) {
+      return extrude_sheets(mesh, light, result.silhouettes, part);
+    });
+  }
+  if (options.penumbra) {
+    result.penumbra = extrude("penumbra", [&](const ExtrudeOptions& part) {
+      return extrude_penumbra(mesh, light, result.classes, part);
+    });
+  }
+  if (options.umbra) {
+    result.umbra = extrude(
+        "umbra", [&](const ExtrudeOptions& part) { return convex_umbra(mesh, light, result.classes, part); });
+  }
+  result.stages = clock.stages();
   return result;
 }
 

@@ -1,4 +1,4 @@
-// penumbra classify: pipeline steps 1 and 2 of every object, without extrusion.
+// penumbra classify: face classes and silhouettes of every object, without volumes.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
@@ -70,12 +70,12 @@ void run(const Arguments& arguments) {
       " mesh\n";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];
-    const Classification classes = classify_faces(object.mesh, scene.light);
-    const Silhouettes silhouettes = find_silhouettes(object.mesh, classes);
+    const ShadowVolumes found =
+        build_shadow_volumes(object.mesh, scene.light, {.penumbra = false, .umbra = false});
     if (arguments.json)
-      report.push_back(full_report(object, classes, silhouettes));
+      report.push_back(full_report(object, found.classes, found.silhouettes));
     else
-      table += table_row(i, object, classes, silhouettes);
+      table += table_row(i, object, found.classes, found.silhouettes);
   }
   if (!arguments.json) return print(table);
   // One line: indented lists of faces would be as many lines.

@@ -2,9 +2,7 @@
 #include "penumbra/volumes/volumes.h"
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
-#include <functional>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/reports.h"
@@ -70,67 +68,54 @@ void check(const Arguments& arguments) {
   require_writable(arguments.report);
 }
 
-class Stages {
- public:
-  template <class Call>
-  auto time(const char* name, Call call) {
-    const auto start = std::chrono::steady_clock::now();
-    auto result = call();
-    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
-    milliseconds_[name] = passed.count();
-    return result;
-  }
-  const nlohmann::json& milliseconds() const { return milliseconds_; }
-
- private:
-  nlohmann::json milliseconds_ = nlohmann::json::object();
-};
-
-void add_object(const Arguments& arguments, const Scene& scene, std::size_t number, ExtrudeOptions options,
-                Volumes& volumes) {
+void add_object(const Arguments& arguments, const Scene& scene, std::size_t number,
+                const VolumeOptions& options, Volumes& volumes) {
   const SceneObject& object = scene.objects[number];
-  const TriangleMesh& mesh = object.mesh;
-  options.object = static_cast<std::uint32_t>(number);
-  Stages stages;
-  const Classification classes = stages.time("classify", [&] { return classify_faces(mesh, scene.light); });
-  const Silhouettes silhouettes = stages.time("silhouettes", [&] { return find_silhouettes(mesh, classes); });
-  nlohmann::json report = classification_report(classes);
+  const std::size_t faces = object.mesh.triangles().size();
+  ShadowVolumes made = build_shadow_volumes(object.mesh, scene.light, options);
+  nlohmann::json report = classification_report(made.classes);
   report["object"] = number;
   report["mesh"] = object.name;
-  report["build"] = build_report(mesh.report());
-  report["silhouettes"] = silhouette_report(silhouettes);
-  const auto add = [&](const char* name, std::vector<ShadowMesh>& parts,
-                       const std::function<ShadowMesh()>& extrude) {
-    parts.push_back(stages.time(name, extrude));
-    report[name] = shadow_report(parts.back(), mesh.triangles().size());
-  };
-  if (arguments.wants_sheets())
-    add("sheets", volumes.sheets, [&] { return extrude_sheets(mesh, scene.light, silhouettes, options); });
-  if (arguments.wants_penumbra())
-    add("penumbra", volumes.penumbra, [&] { return extrude_penumbra(mesh, scene.light, classes, options); });
-  if (arguments.wants_umbra())
-    add("umbra", volumes.umbra, [&] { return convex_umbra(mesh, scene.light, classes, options); });
+  report["build"] = build_report(object.mesh.report());
+  report["silhouettes"] = silhouette_report(made.silhouettes);
+  if (options.sheets) report["sheets"] = shadow_report(made.sheets, faces);
+  if (options.penumbra) report["penumbra"] = shadow_report(made.penumbra, faces);
+  if (options.umbra) report["umbra"] = shadow_report(made.umbra, faces);
   if (arguments.check) {
-    const VolumeFindings findings = stages.time("check", [&] {
-      return validate(mesh, scene.light, volumes.umbra.back(), volumes.penumbra.back(), options);
-    });
+    StageClock clock;
+    const VolumeFindings findings =
+        validate(object.mesh, scene.light, made.umbra, made.penumbra, options.extrude);
+    clock.finish("check");
+    made.stages.push_back(clock.stages().front());
     report["check"] = check_report(findings);
     volumes.findings += check_text(number, object.name, findings);
     volumes.good = volumes.good && findings.good();
   }
-  report["milliseconds"] = stages.milliseconds();
+  for (const StageTime& stage : made.stages) report["milliseconds"][stage.name] = stage.milliseconds;
   volumes.objects.push_back(report);
-  volumes.caster_faces += mesh.triangles().size();
+  volumes.caster_faces += faces;
+  volumes.sheets.push_back(std::move(made.sheets));
+  volumes.penumbra.push_back(std::move(made.penumbra));
+  volumes.umbra.push_back(std::move(made.umbra));
 }
 
 Volumes build_volumes(const Arguments& arguments, const Scene& scene) {
   Volumes volumes;
-  ExtrudeOptions options = extrude_options_for(scene);
-  options.cone_segments = arguments.cone_segments;
-  ProgressLine progress("volumes");
-  options.progress = progress.callback();
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (scene.objects[i].casts) add_object(arguments, scene, i, options, volumes);
+  VolumeOptions options{.sheets = arguments.wants_sheets(),
+                        .penumbra = arguments.wants_penumbra(),
+                        .umbra = arguments.wants_umbra(),
+                        .extrude = extrude_options_for(scene)};
+  options.extrude.cone_segments = arguments.cone_segments;
+  ProgressLine line("volumes");
+  const Progress progress = line.callback();
+  const auto count = static_cast<double>(scene.objects.size());
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (!scene.objects[i].casts) continue;
+    options.extrude.object = static_cast<std::uint32_t>(i);
+    options.extrude.progress =
+        part_of(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+    add_object(arguments, scene, i, options, volumes);
+  }
   if (volumes.objects.empty()) complain("warning: no object of the scene casts; the volumes are empty");
   return volumes;
 }
@@ -147,15 +132,16 @@ void say(const nlohmann::json& objects) {
 
 void write(const Arguments& arguments, const Volumes& volumes) {
   nlohmann::json report = {{"objects", volumes.objects}};
-  const auto write_one = [&](const char* name, const std::filesystem::path& path,
+  const auto write_one = [&](const char* name, bool wanted, const std::filesystem::path& path,
                              const std::vector<ShadowMesh>& parts) {
     const ShadowMesh whole = merge(parts);
     if (!path.empty()) write_shadow_mesh(path, whole);
-    if (arguments.merge && !parts.empty()) report["scene"][name] = shadow_report(whole, volumes.caster_faces);
+    if (arguments.merge && wanted && !parts.empty())
+      report["scene"][name] = shadow_report(whole, volumes.caster_faces);
   };
-  write_one("sheets", arguments.sheets, volumes.sheets);
-  write_one("penumbra", arguments.penumbra, volumes.penumbra);
-  write_one("umbra", arguments.umbra, volumes.umbra);
+  write_one("sheets", arguments.wants_sheets(), arguments.sheets, volumes.sheets);
+  write_one("penumbra", arguments.wants_penumbra(), arguments.penumbra, volumes.penumbra);
+  write_one("umbra", arguments.wants_umbra(), arguments.umbra, volumes.umbra);
   if (!arguments.report.empty()) write_json(arguments.report, report);
 }
 

@@ -13,6 +13,8 @@ namespace {
 constexpr double kDefaultBound = 10.0;  // times the sphere around caster and light
 constexpr double kBeyond = 1.0 + 1e-6;  // far ends clear the bound by this factor
 
+}  // namespace
+
 void require_valid(const ExtrudeOptions& options) {
   if (options.cone_segments < 3)
     throw UsageError("cone_segments is below 3: a polygon around the disk has at least 3 corners");
@@ -22,8 +24,6 @@ void require_valid(const ExtrudeOptions& options) {
     throw UsageError("the bound is not a finite sphere: give a finite center and a radius of at least 0");
   }
 }
-
-}  // namespace
 
 double ShadowReach::distance() const {
   return (glm::length(bound_center - center) + bound_radius + radius) * kBeyond;

@@ -23,7 +23,10 @@ struct ShadowReach {
   double distance() const;
 };
 
-/// Throws UsageError for options outside their domain.
+/// Throws UsageError unless the bound is a finite sphere and the polygon around the disk has 3 corners or more.
+void require_valid(const ExtrudeOptions& options);
+
+/// Throws UsageError as require_valid does.
 ShadowReach shadow_reach(const TriangleMesh& mesh, const DiskLight& light, const ExtrudeOptions& options);
 
 }  // namespace penumbra::detail

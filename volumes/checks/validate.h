@@ -61,7 +61,7 @@ struct VolumeFindings {
   bool good() const;
 };
 
-/// Checks volumes of one caster made with these options (convex_umbra or extrude_umbra, extrude_penumbra).
+/// Checks the volumes of one caster, as build_shadow_volumes makes them with these options.
 /// Expected cost O(n log n) for n triangles, and O(points · n).
 VolumeFindings validate(const TriangleMesh& mesh, const DiskLight& light, const ShadowMesh& umbra,
                         const ShadowMesh& penumbra, const ExtrudeOptions& extrude,

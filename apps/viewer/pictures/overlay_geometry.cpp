@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "apps/common/scene_volumes.h"
-#include "penumbra/volumes/checks/checks.h"
 #include "penumbra/volumes/volumes.h"
 
 namespace penumbra::viewer {
@@ -60,13 +59,16 @@ class Builder {
   }
 
   OverlayGeometry build() {
-    ExtrudeOptions options = apps::extrude_options_for(scene_);
+    VolumeOptions options{.sheets = wanted_.sheets,
+                          .penumbra = wanted_.penumbra,
+                          .umbra = wanted_.umbra,
+                          .extrude = apps::extrude_options_for(scene_)};
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       const SceneObject& object = scene_.objects[i];
       for (const IndexedTriangle& t : object.mesh.triangles())
         triangle(out_.scene, object.mesh.positions(), t, {});
       if (!object.casts) continue;
-      options.object = static_cast<std::uint32_t>(i);
+      options.extrude.object = static_cast<std::uint32_t>(i);
       add_caster(object.mesh, options);
     }
     return std::move(out_);
@@ -93,25 +95,22 @@ class Builder {
       triangle(out_.sheets, mesh.positions, t, cell_color(mesh, color));
   }
 
-  void add_caster(const TriangleMesh& mesh, const ExtrudeOptions& options) {
-    const DiskLight& light = scene_.light;
-    const Classification classes = classify_faces(mesh, light);
-    const Silhouettes silhouettes = find_silhouettes(mesh, classes);
+  void add_caster(const TriangleMesh& mesh, const VolumeOptions& options) {
+    const ShadowVolumes made = build_shadow_volumes(mesh, scene_.light, options);
+    const std::vector<FaceClass>& classes = made.classes.faces;
     if (wanted_.faces)
-      for (std::size_t f = 0; f < classes.faces.size(); ++f)
-        triangle(out_.faces, mesh.positions(), mesh.triangles()[f], face_color(classes.faces[f]));
-    if (wanted_.band) lines(mesh, silhouettes.band, kBandLine);
+      for (std::size_t f = 0; f < classes.size(); ++f)
+        triangle(out_.faces, mesh.positions(), mesh.triangles()[f], face_color(classes[f]));
+    if (wanted_.band) lines(mesh, made.silhouettes.band, kBandLine);
     if (wanted_.silhouettes) {
-      lines(mesh, silhouettes.penumbra, kPenumbraLine);
-      lines(mesh, silhouettes.umbra, kUmbraLine);
+      lines(mesh, made.silhouettes.penumbra, kPenumbraLine);
+      lines(mesh, made.silhouettes.umbra, kUmbraLine);
     }
-    if (wanted_.sheets) {
-      const ShadowMesh sheets = extrude_sheets(mesh, light, silhouettes, options);
-      for (std::size_t t = 0; t < sheets.triangles.size(); ++t)
-        triangle(out_.sheets, sheets.positions, sheets.triangles[t], sheet_color(sheets.tags[t].kind));
-    }
-    if (wanted_.penumbra) volume(extrude_penumbra(mesh, light, classes, options), {255, 150, 40, 0});
-    if (wanted_.umbra) volume(convex_umbra(mesh, light, classes, options), {70, 110, 255, 0});
+    for (std::size_t t = 0; t < made.sheets.triangles.size(); ++t)
+      triangle(out_.sheets, made.sheets.positions, made.sheets.triangles[t],
+               sheet_color(made.sheets.tags[t].kind));
+    volume(made.penumbra, {255, 150, 40, 0});
+    volume(made.umbra, {70, 110, 255, 0});
   }
 
   const Scene& scene_;

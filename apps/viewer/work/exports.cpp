@@ -6,7 +6,6 @@
 
 #include "apps/common/scene_volumes.h"
 #include "mesh/vectors.h"
-#include "penumbra/volumes/checks/checks.h"
 #include "penumbra/volumes/volumes.h"
 
 namespace penumbra::viewer {
@@ -18,16 +17,15 @@ constexpr int kPictures = 24;  // of a sequence
 
 std::string export_volumes(const std::filesystem::path& folder, const State& state) {
   const Scene scene = current_scene(state);
-  ExtrudeOptions options = apps::extrude_options_for(scene);
+  VolumeOptions options{.sheets = true, .extrude = apps::extrude_options_for(scene)};
   std::vector<ShadowMesh> sheets, penumbra, umbra;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const TriangleMesh& mesh = scene.objects[i].mesh;
     if (!scene.objects[i].casts) continue;
-    options.object = static_cast<std::uint32_t>(i);
-    const Classification classes = classify_faces(mesh, scene.light);
-    sheets.push_back(extrude_sheets(mesh, scene.light, find_silhouettes(mesh, classes), options));
-    penumbra.push_back(extrude_penumbra(mesh, scene.light, classes, options));
-    umbra.push_back(convex_umbra(mesh, scene.light, classes, options));
+    options.extrude.object = static_cast<std::uint32_t>(i);
+    ShadowVolumes made = build_shadow_volumes(scene.objects[i].mesh, scene.light, options);
+    sheets.push_back(std::move(made.sheets));
+    penumbra.push_back(std::move(made.penumbra));
+    umbra.push_back(std::move(made.umbra));
   }
   const std::string stem = state.path.stem().string();
   write_shadow_mesh(folder / (stem + "-sheets.ply"), merge(sheets));

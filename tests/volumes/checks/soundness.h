@@ -8,7 +8,6 @@
 #include <cmath>
 #include <map>
 
-#include "penumbra/volumes/convex_umbra.h"
 #include "penumbra/volumes/volumes.h"
 
 namespace penumbra::testing {
@@ -51,7 +50,7 @@ inline ::testing::AssertionResult is_balanced(const TriangleMesh& mesh, const st
   return ::testing::AssertionSuccess();
 }
 
-/// Builds everything, the umbra from penumbra::checks, and asserts (fatally) that it is sound.
+/// Builds everything and asserts (fatally) that it is sound.
 inline void expect_sound(const TriangleMesh& mesh, const DiskLight& light, ShadowVolumes& v,
                          const ExtrudeOptions& extrude = {}) {
   SCOPED_TRACE(::testing::Message() << "light at (" << light.center.x << ", " << light.center.y << ", "
@@ -60,7 +59,6 @@ inline void expect_sound(const TriangleMesh& mesh, const DiskLight& light, Shado
   options.sheets = true;
   options.extrude = extrude;
   v = build_shadow_volumes(mesh, light, options);
-  v.umbra = convex_umbra(mesh, light, v.classes, extrude);
   ASSERT_TRUE(is_sound(v.penumbra));
   ASSERT_TRUE(is_sound(v.umbra));
   ASSERT_TRUE(is_finite(v.sheets));
