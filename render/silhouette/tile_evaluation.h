@@ -16,8 +16,8 @@
 
 #include "render/silhouette/areas/visible_area.h"
 #include "render/silhouette/collect/edge_blocks.h"
-#include "render/silhouette/collect/merged_certificate.h"
 #include "render/silhouette/collect/shaft.h"
+#include "render/silhouette/collect/uncertain_edges.h"
 #include "render/silhouette/light_rays.h"
 #include "render/silhouette/passes.h"
 #include "render/silhouette/silhouette_visibility.h"

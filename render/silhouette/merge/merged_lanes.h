@@ -4,7 +4,7 @@
 // curved sides away (MergedSides). So it is no silhouette across the disk where its ends lie beyond a plane
 // that holds receivers and disk on its other side, by the margin: for receivers of a shaft one of the shaft's
 // sides, and for one receiver x the plane through x that touches the disk towards the edge's middle. In float
-// with the margin of block_bounds.h; what is left is asked in double (merged_certificate.h).
+// with the margin of block_bounds.h; what is left is asked in double (uncertain_edges.h).
 #pragma once
 
 #include <array>

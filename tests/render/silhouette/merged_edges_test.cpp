@@ -11,7 +11,7 @@
 #include "penumbra/mesh/shapes.h"
 #include "render/rays/ray_scene.h"
 #include "render/silhouette/areas/projected_edges.h"
-#include "render/silhouette/collect/merged_certificate.h"
+#include "render/silhouette/collect/uncertain_edges.h"
 #include "render/silhouette/silhouette_visibility.h"
 #include "tests/render/render_support.h"
 #include "tests/render/silhouette/subdivide.h"

@@ -1,4 +1,4 @@
-#include "render/silhouette/collect/merged_certificate.h"
+#include "render/silhouette/collect/uncertain_edges.h"
 
 #include <bit>
 #include <cmath>
