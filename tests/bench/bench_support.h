@@ -1,23 +1,44 @@
-// What the benchmarks share: medians, peak memory, references.
+// What the benchmarks share: scenes, peak memory, references. Each part measures one subject and adds its figures to a record.
 #pragma once
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "penumbra/render/scene/scene.h"
 #include "render/image/error_figures.h"
 #include "render/rays/reference.h"
 #include "render/receivers/surface_buffer.h"
+#include "render/support/stage_clock.h"
+#include "tests/bench/record.h"
 
 namespace penumbra::bench {
 
+using SceneNames = std::vector<std::string>;
+
+/// A scene of data/scenes, by its name without folder and extension.
+inline Scene bench_scene(const std::string& name) {
+  return load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+}
+
+inline double total_ms(const std::vector<StageTime>& stages) {
+  double sum = 0.0;
+  for (const StageTime& s : stages) sum += s.milliseconds;
+  return sum;
+}
+
 inline double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
+  return spread_of(std::move(values)).median;
+}
+
+/// Quotients of values that were measured one after the other.
+inline std::vector<double> paired_ratios(const std::vector<double>& over, const std::vector<double>& under) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < over.size() && i < under.size(); ++i) ratios.push_back(over[i] / under[i]);
+  return ratios;
 }
 
 /// Largest resident size of this process so far, MiB.
@@ -27,14 +48,19 @@ inline double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
+inline std::vector<std::uint32_t> all_pixels(const SurfaceBuffer& surface) {
+  std::vector<std::uint32_t> pixels(surface.size());
+  std::iota(pixels.begin(), pixels.end(), 0u);
+  return pixels;
+}
+
 /// Two independent references of a view and its true penumbra.
 struct Truth {
   std::vector<float> first, second;
   std::vector<std::uint32_t> receivers, penumbra;
 
   Truth(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, int samples) {
-    std::vector<std::uint32_t> pixels(surface.size());
-    std::iota(pixels.begin(), pixels.end(), 0u);
+    const std::vector<std::uint32_t> pixels = all_pixels(surface);
     ReferenceOptions options;
     options.samples = samples;
     options.seed = 101;
@@ -50,17 +76,24 @@ struct Truth {
   }
 };
 
-/// d_buffer_bench.cpp: the D-buffer against rays of equal error for scenes of data/scenes, and its cost as it
-/// grows.
-void bench_d_buffer(const std::vector<std::string>& scenes);
+/// accuracy_bench.cpp: the frame of every method and its error against the silhouette method, on the floor and on the casters.
+void bench_accuracy(Record& record, const SceneNames& scenes);
 
-/// accuracy_bench.cpp: each method's frame and its error against the silhouette method, floor pixels and casters'
-/// apart, for one scene of data/scenes.
-void measure_accuracy(const std::string& name);
+/// d_buffer_bench.cpp: the D-buffer against rays of the same error; its cost by its size, by faces and by the light's radius.
+void bench_d_buffer(Record& record, const SceneNames& scenes);
 
-/// silhouette_bench.cpp: the silhouette method against rays, for one scene of data/scenes.
-void time_silhouettes(const std::string& name);
+/// silhouette_bench.cpp: the silhouette method against rays, visibility alone; what is certified.
+void bench_silhouette(Record& record, const SceneNames& scenes);
 /// The same file: 1,000 times the faces, and lights of 16 times the radius.
-void time_silhouette_growth();
+void bench_growth(Record& record, const SceneNames&);
+
+/// occlusion_bench.cpp: prefilters; frames by the light's radius and by the number of slices.
+void bench_occlusion_textures(Record& record, const SceneNames&);
+
+/// price_bench.cpp: what exact classification costs, and what plain arithmetic gets wrong.
+void bench_price(Record& record, const SceneNames&);
+
+/// volumes_bench.cpp: cells, triangles and time of penumbra and umbra volumes.
+void bench_volumes(Record& record, const SceneNames& scenes);
 
 }  // namespace penumbra::bench

@@ -1,8 +1,8 @@
 // The D-buffer against rays of equal error, and its cost by buffer size, faces and radius.
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
+#include <memory>
 #include <string>
 
 #include "penumbra/mesh/shapes.h"
@@ -13,18 +13,13 @@ namespace penumbra::bench {
 namespace {
 
 constexpr int kFrames = 7;
-constexpr int kMostRays = 1024;  // more are not tried
+constexpr int kMostRays = 1024;        // more are not tried
+constexpr double kLongFrame = 1000.0;  // ms; longer ones are repeated three times only
 
 /// A frame of which all that depends on the light is found anew.
 DBufferFrame fresh_frame(DBuffer& d_buffer, const DiskLight& light, const DBufferOptions& options = {}) {
   d_buffer.forget_light();
   return d_buffer.render(light, options);
-}
-
-double total_ms(const DBufferFrame& frame) {
-  double total = 0.0;
-  for (const StageTime& s : frame.stages) total += s.milliseconds;
-  return total;
 }
 
 /// Rays per pixel at which stratified sampling has the given error, by log-log interpolation between measured
@@ -51,123 +46,100 @@ int rays_of_equal_error(const Scene& scene, const RayScene& rays, const SurfaceB
   return kMostRays;
 }
 
-void time_scene(const std::string& name) {
-  const Scene scene = load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
-  RayScene rays(scene, 0);
-  const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
-  const Truth truth(scene, rays, surface, 1024);
-  const auto context = gl::make_context(gl::Backend::kOsMesa);
-  DBuffer d_buffer(*context, scene, rays);
-  d_buffer.set_surface(surface);
-  DBufferFrame frame = d_buffer.render(scene.light, {});
-  const double rmse = truth.rmse(frame.visibility);
+/// A scene ready to be drawn at 640×480.
+struct Stand {
+  explicit Stand(const Scene& of)
+      : scene(of),
+        rays(scene, 0),
+        surface(make_surface_buffer(scene, rays, 640, 480)),
+        context(gl::make_context(gl::Backend::kOsMesa)),
+        d_buffer(*context, scene, rays) {
+    d_buffer.set_surface(surface);
+  }
+  Scene scene;
+  RayScene rays;
+  SurfaceBuffer surface;
+  std::unique_ptr<gl::Context> context;
+  DBuffer d_buffer;
+};
+
+void time_scene(Record& record, const std::string& name) {
+  Stand stand(bench_scene(name));
+  const Truth truth(stand.scene, stand.rays, stand.surface, 1024);
+  const double rmse = truth.rmse(stand.d_buffer.render(stand.scene.light, {}).visibility);
   ReferenceOptions equal;
-  equal.samples = rays_of_equal_error(scene, rays, surface, truth, rmse);
+  equal.samples = rays_of_equal_error(stand.scene, stand.rays, stand.surface, truth, rmse);
+  const std::vector<std::uint32_t> pixels = all_pixels(stand.surface);
 
   std::map<std::string, std::vector<double>> stages;
-  std::vector<double> totals, ray_times, single_times;
-  std::vector<std::string> order;
-  std::vector<std::uint32_t> pixels(surface.size());
-  std::iota(pixels.begin(), pixels.end(), 0u);
-  std::size_t traced = 0;
+  std::vector<double> frames, rays, paired_frames;
   for (int i = 0; i < kFrames; ++i) {
-    frame = fresh_frame(d_buffer, scene.light);
-    for (const StageTime& s : frame.stages) {
-      if (stages[s.name].empty()) order.push_back(s.name);
-      stages[s.name].push_back(s.milliseconds);
-    }
-    totals.push_back(total_ms(frame));
-    if (!ray_times.empty() && ray_times.back() > 1000.0 && i >= 2) continue;  // long runs need fewer
-    equal.packets = true;
-    const ReferenceResult r = trace_reference(scene, rays, surface, pixels, equal);
-    ray_times.push_back(r.milliseconds);
-    traced = r.rays;
-    equal.packets = false;
-    single_times.push_back(trace_reference(scene, rays, surface, pixels, equal).milliseconds);
+    const DBufferFrame frame = fresh_frame(stand.d_buffer, stand.scene.light);
+    for (const StageTime& s : frame.stages) stages[s.name].push_back(s.milliseconds);
+    frames.push_back(total_ms(frame.stages));
+    if (!rays.empty() && rays.back() > kLongFrame && i >= 2) continue;
+    const ReferenceResult r = trace_reference(stand.scene, stand.rays, stand.surface, pixels, equal);
+    rays.push_back(r.milliseconds);
+    paired_frames.push_back(frames.back());
   }
-  std::printf("%s, 640x480, %zu pixels in true penumbra\n  dbuffer ", name.c_str(), truth.penumbra.size());
-  for (const std::string& s : order) std::printf(" %s %.1f", s.c_str(), median(stages[s]));
-  const double ours = median(totals), theirs = median(ray_times);
-  std::printf("\n  dbuffer    %8.1f ms a frame (%.1f frames a second), RMSE %.4f over true penumbra\n", ours,
-              1e3 / ours, rmse);
-  std::printf("  reference  %8.1f ms with %d rays a pixel at %s RMSE (%.0f Mrays/s; %.0f one by one)\n",
-              theirs, equal.samples, equal.samples < kMostRays ? "the same" : "no smaller",
-              static_cast<double>(traced) / (1e3 * theirs),
-              static_cast<double>(traced) / (1e3 * median(single_times)));
-  std::printf("  the D-buffer %s: %.2f times the rays' time\n", ours < theirs ? "wins" : "loses",
-              ours / theirs);
-  std::printf(
-      "  Embree's hierarchy (not in the above) %.1f ms; peak memory of the process so far %.0f MiB\n\n",
-      rays.build_ms(), peak_memory_mib());
-  std::fflush(stdout);
+  record.set_renderer(stand.context->renderer());
+  for (const auto& [stage, milliseconds] : stages) record.add(name + "/stage " + stage, "ms", milliseconds);
+  record.add(name + "/dbuffer", "ms", frames);
+  record.add(name + "/RMSE", "1", rmse);
+  record.add(name + "/rays of equal error", equal.samples < kMostRays ? "a pixel" : "a pixel, at least",
+             equal.samples);
+  record.add(name + "/reference", "ms", rays);
+  record.add(name + "/dbuffer : reference", "1", paired_ratios(paired_frames, rays));
+  record.add(name + "/peak memory", "MiB", peak_memory_mib());
 }
 
-/// The whole-target cost of one scene against the D-buffer's size.
-void time_sizes(const std::string& name) {
-  const Scene scene = load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
-  RayScene rays(scene, 0);
-  const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
-  const auto context = gl::make_context(gl::Backend::kOsMesa);
-  DBuffer d_buffer(*context, scene, rays);
-  d_buffer.set_surface(surface);
-  std::printf("%s, D-buffer size → milliseconds a frame:", name.c_str());
+/// Frames in which all that depends on the light is found anew.
+std::vector<double> frame_times(Stand& stand, const DBufferOptions& options = {}) {
+  std::vector<double> times;
+  for (int i = 0; i <= kFrames; ++i) {
+    const double total = total_ms(fresh_frame(stand.d_buffer, stand.scene.light, options).stages);
+    if (i > 0) times.push_back(total);
+  }
+  return times;
+}
+
+void time_sizes(Record& record, const std::string& name) {
+  Stand stand(bench_scene(name));
   for (int size : {256, 512, 1024, 2048}) {
     DBufferOptions options;
     options.size = size;
-    std::vector<double> totals;
-    for (int i = 0; i < kFrames; ++i) {
-      const double total = total_ms(fresh_frame(d_buffer, scene.light, options));
-      if (i > 0) totals.push_back(total);
-    }
-    std::printf("  %d → %.0f", size, median(totals));
+    record.add(name + "/size " + std::to_string(size), "ms", frame_times(stand, options));
   }
-  std::printf("\n");
 }
 
-/// Median over frames of all that depends on the light, at 640×480.
-double frame_ms(const Scene& scene) {
-  const RayScene rays(scene, 0);
-  const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
-  const auto context = gl::make_context(gl::Backend::kOsMesa);
-  DBuffer d_buffer(*context, scene, rays);
-  d_buffer.set_surface(surface);
-  std::vector<double> totals;
-  for (int i = 0; i < kFrames; ++i) {
-    const double total = total_ms(fresh_frame(d_buffer, scene.light));
-    if (i > 0) totals.push_back(total);
-  }
-  return median(totals);
-}
-
-void time_faces() {
-  std::printf("sphere over a floor, faces → milliseconds a frame:");
-  Scene scene = load_scene(std::string(PENUMBRA_DATA) + "/scenes/sphere-medium.json").scene;
+void time_faces(Record& record) {
+  Scene scene = bench_scene("sphere-medium");
   for (int level = 2; level <= 7; ++level) {
     scene.objects[1].mesh = make_icosphere({0, 2.5, 0}, 1.0, level);
-    std::printf("  %zu → %.0f", scene.objects[1].mesh.triangles().size(), frame_ms(scene));
-    std::fflush(stdout);
+    Stand stand(scene);
+    record.add("sphere/" + std::to_string(scene.objects[1].mesh.triangles().size()) + " faces", "ms",
+               frame_times(stand));
   }
-  std::printf("\n");
 }
 
-void time_radii(const std::string& name) {
-  std::printf("%s, light's radius → milliseconds a frame:", name.c_str());
-  Scene scene = load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+void time_radii(Record& record, const std::string& name) {
+  Scene scene = bench_scene(name);
   for (double radius : {0.05, 0.1, 0.2, 0.4, 0.8, 1.6}) {
     scene.light.radius = radius;
-    std::printf("  %g → %.0f", radius, frame_ms(scene));
-    std::fflush(stdout);
+    Stand stand(scene);
+    char text[16];
+    std::snprintf(text, sizeof text, "%g", radius);
+    record.add(name + "/radius " + text, "ms", frame_times(stand));
   }
-  std::printf("\n");
 }
 
 }  // namespace
 
-void bench_d_buffer(const std::vector<std::string>& scenes) {
-  for (const std::string& name : scenes) time_scene(name);
-  time_sizes("armadillo-medium");
-  time_faces();
-  time_radii("knot1-medium");
+void bench_d_buffer(Record& record, const SceneNames& scenes) {
+  for (const std::string& name : scenes) time_scene(record, name);
+  time_sizes(record, "armadillo-medium");
+  time_faces(record);
+  time_radii(record, "knot1-medium");
 }
 
 }  // namespace penumbra::bench

@@ -1,64 +1,112 @@
-// What accuracy costs in time: `./run bench [PART [SCENE...]]`. Medians of interleaved frames, everything
-// finished, one process.
+// What accuracy costs in time: `./run bench [PART [SCENE...]] [--write]`. Figures are printed and, with --write, kept as data.
+#include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <vector>
 
 #include "tests/bench/bench_support.h"
-#include "tests/bench/classify_price.h"
-#include "tests/bench/occlusion_bench.h"
 
+namespace penumbra::bench {
 namespace {
 
-/// Returns the exit code; throws what the scenes' loading throws.
-int run(const std::string& part, const std::vector<std::string>& named) {
-  using namespace penumbra::bench;
-  const auto scenes = [&](const std::vector<std::string>& usual) { return named.empty() ? usual : named; };
-  const auto wanted = [&](const char* name) { return part == "all" || part == name; };
+struct Part {
+  const char* name;
+  void (*run)(Record& record, const SceneNames& scenes);
+  SceneNames scenes;  ///< measured where none is named
+};
+
+const std::vector<Part>& parts() {
+  static const std::vector<Part> all{
+      {"price", bench_price, {}},
+      {"volumes",
+       bench_volumes,
+       {"cube-medium", "sphere-medium", "torus-medium", "bunny-medium", "knot1-medium", "armadillo-medium",
+        "refined_elephant-medium"}},
+      {"accuracy",
+       bench_accuracy,
+       {"cube-small", "cube-medium", "cube-large", "sphere-medium", "torus-medium", "torus-large",
+        "boxes-medium", "boxes-large", "bunny-medium", "knot1-medium", "armadillo-medium",
+        "refined_elephant-medium", "foliage-medium", "decorativePlant-medium", "figure7"}},
+      {"dbuffer", bench_d_buffer, {"cube-medium", "bunny-medium", "knot1-medium", "armadillo-medium"}},
+      {"silhouette",
+       bench_silhouette,
+       {"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium", "speck-medium",
+        "bunny-medium", "knot1-medium", "armadillo-medium", "refined_elephant-medium", "foliage-medium",
+        "decorativePlant-medium", "building", "tree"}},
+      {"growth", bench_growth, {}},
+      {"occlusion", bench_occlusion_textures, {}}};
+  return all;
+}
+
+struct Arguments {
+  std::string part = "all", file, commit = "unknown";
+  SceneNames scenes;
+};
+
+/// Exits with 2 where an option has no value.
+Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  bool named = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--write" || word == "--commit") {
+      if (i + 1 == argc) {
+        std::fprintf(stderr, "penumbra_bench: %s needs a value\n", word.c_str());
+        std::exit(2);
+      }
+      (word == "--write" ? arguments.file : arguments.commit) = argv[++i];
+    } else if (!named) {
+      arguments.part = word;
+      named = true;
+    } else {
+      arguments.scenes.push_back(word);
+    }
+  }
+  return arguments;
+}
+
+void print_help() {
+  std::puts("penumbra_bench [PART [SCENE...]] [--write FILE] [--commit TEXT]\nParts:");
+  for (const Part& part : parts()) std::printf("  %s\n", part.name);
+  std::puts(
+      "  all\nScenes are those of data/scenes. --write puts the figures into FILE (JSON), --commit says of "
+      "which commit.");
+}
+
+/// Returns the exit code. Parts are written whole, so that all their figures are of one run. Throws what loading, rendering and writing throw.
+int run(const Arguments& arguments) {
+  if (!arguments.file.empty() && !arguments.scenes.empty()) {
+    std::fprintf(stderr, "penumbra_bench: --write keeps whole parts; name no scenes\n");
+    return 2;
+  }
+  Record record;
   bool known = false;
-  if (wanted("price")) compare_prices_of_classification(), known = true;
-  if (wanted("dbuffer"))
-    bench_d_buffer(scenes({"cube-medium", "bunny-medium", "knot1-medium", "armadillo-medium"})), known = true;
-  if (wanted("accuracy")) {
-    for (const std::string& name :
-         scenes({"cube-small", "cube-medium", "cube-large", "sphere-medium", "torus-medium", "torus-large",
-                 "boxes-medium", "boxes-large", "bunny-medium", "knot1-medium", "armadillo-medium",
-                 "refined_elephant-medium", "foliage-medium", "decorativePlant-medium", "figure7"}))
-      measure_accuracy(name);
+  for (const Part& part : parts()) {
+    if (arguments.part != "all" && arguments.part != part.name) continue;
     known = true;
+    record.begin(part.name);
+    part.run(record, arguments.scenes.empty() ? part.scenes : arguments.scenes);
+    if (!arguments.file.empty()) record.write(arguments.file, arguments.commit);
   }
-  if (wanted("silhouette")) {
-    for (const std::string& name :
-         scenes({"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium",
-                 "speck-medium", "bunny-medium", "knot1-medium", "armadillo-medium",
-                 "refined_elephant-medium", "foliage-medium", "decorativePlant-medium", "building", "tree"}))
-      time_silhouettes(name);
-    known = true;
-  }
-  if (wanted("growth")) time_silhouette_growth(), known = true;
-  if (wanted("occlusion")) bench_occlusion_textures(), known = true;
   if (known) return 0;
-  std::fprintf(
-      stderr,
-      "penumbra_bench: no part \"%s\"; there are price, accuracy, dbuffer, silhouette, growth, occlusion and "
-      "all\n",
-      part.c_str());
+  std::fprintf(stderr, "penumbra_bench: no part \"%s\"; see --help\n", arguments.part.c_str());
   return 2;
 }
 
 }  // namespace
+}  // namespace penumbra::bench
 
 int main(int argc, char** argv) {
-  const std::string part = argc > 1 ? argv[1] : "all";
-  if (part == "--help" || part == "-h") {
-    std::puts(
-        "penumbra_bench [PART [SCENE...]]: price, accuracy, dbuffer, silhouette, growth, occlusion or all; "
-        "scenes of data/scenes");
+  using namespace penumbra::bench;
+  const Arguments arguments = parse(argc, argv);
+  if (arguments.part == "--help" || arguments.part == "-h") {
+    print_help();
     return 0;
   }
   try {
-    return run(part, {argv + (argc > 1 ? 2 : 1), argv + argc});
+    return run(arguments);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "penumbra_bench: %s\n", e.what());
     return 1;

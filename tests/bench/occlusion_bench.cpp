@@ -1,10 +1,7 @@
-#include "tests/bench/occlusion_bench.h"
-
-#include <algorithm>
+// Occlusion textures: prefilters; frames by the light's radius and by the number of slices.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <string>
 
@@ -38,7 +35,7 @@ double prefilter_ms(const std::vector<std::uint8_t>& texels, int size) {
   return bytes > 0 ? std::chrono::duration<double, std::milli>(passed).count() : 0.0;
 }
 
-void time_prefilters() {
+void time_prefilters(Record& record) {
   for (const int size : {256, 512}) {
     const auto texels = round_mask(size);
     std::vector<double> mip, boxes, table;
@@ -47,20 +44,12 @@ void time_prefilters() {
       boxes.push_back(prefilter_ms<detail::NBuffer>(texels, size));
       table.push_back(prefilter_ms<detail::SummedArea>(texels, size));
     }
-    const double m = median(mip), n = median(boxes), s = median(table);
-    std::printf(
-        "prefilter of 16 slices of %d², one core: mipmap %.1f ms, N-buffer %.1f ms, summed area %.1f ms;"
-        " N-buffer / summed area %.1f, mipmap / summed area %.2f\n",
-        size, m, n, s, n / s, m / s);
+    const std::string path = "prefilter/" + std::to_string(size) + "/";
+    record.add(path + "mipmap", "ms", mip);
+    record.add(path + "nbuffer", "ms", boxes);
+    record.add(path + "sat", "ms", table);
+    record.add(path + "nbuffer : sat", "1", paired_ratios(boxes, table));
   }
-}
-
-double least(const std::vector<double>& values) {
-  return *std::min_element(values.begin(), values.end());
-}
-
-Scene bench_scene(const std::string& name) {
-  return load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
 }
 
 RenderOptions occlusion_options(int slices) {
@@ -70,14 +59,8 @@ RenderOptions occlusion_options(int slices) {
   return options;
 }
 
-double visibility_ms(const RenderResult& frame) {
-  for (const StageTime& s : frame.stages)
-    if (s.name == "visibility") return s.milliseconds;
-  return 0.0;
-}
-
 /// One frame of each in turn: what else the machine does hits all alike.
-void time_radii(const std::string& name) {
+void time_radii(Record& record, const std::string& name) {
   const std::vector<double> radii{0.2, 0.4, 0.8, 1.6, 3.2};
   std::vector<Scene> scenes(radii.size(), bench_scene(name));
   std::vector<std::unique_ptr<Renderer>> renderers;
@@ -87,29 +70,20 @@ void time_radii(const std::string& name) {
     renderers.push_back(std::make_unique<Renderer>(scenes[i], options));
     renderers.back()->render_frame(options);
   }
-  std::vector<std::vector<double>> frames(radii.size()), lookups(radii.size()), ratios(radii.size()),
-      work(radii.size());
+  std::vector<std::vector<double>> frames(radii.size());
   for (int round = 0; round < kRounds; ++round)
-    for (std::size_t i = 0; i < radii.size(); ++i) {
-      const std::clock_t start = std::clock();
-      const RenderResult frame = renderers[i]->render_frame(options);
-      work[i].push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
-      frames[i].push_back(frame.frame_ms);
-      lookups[i].push_back(visibility_ms(frame));
-      ratios[i].push_back(frame.frame_ms / frames[0].back());
-    }
-  std::printf(
-      "%s, radius → ms a frame (of it lookups; median of paired ratios to the first; ratio of least "
-      "processor "
-      "times):",
-      name.c_str());
-  for (std::size_t i = 0; i < radii.size(); ++i)
-    std::printf("  %.1f → %.0f (%.0f; %.2f; %.2f)", radii[i], median(frames[i]), median(lookups[i]),
-                median(ratios[i]), least(work[i]) / least(work[0]));
-  std::printf("\n");
+    for (std::size_t i = 0; i < radii.size(); ++i)
+      frames[i].push_back(renderers[i]->render_frame(options).frame_ms);
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    char radius[16];
+    std::snprintf(radius, sizeof radius, "%g", radii[i]);
+    const std::string path = name + "/radius " + radius;
+    record.add(path + "/frame", "ms", frames[i]);
+    record.add(path + "/times the first", "1", paired_ratios(frames[i], frames[0]));
+  }
 }
 
-void time_slices(const std::string& name) {
+void time_slices(Record& record, const std::string& name) {
   const Scene scene = bench_scene(name);
   Renderer renderer(scene, occlusion_options(16));
   const std::vector<int> counts{4, 8, 12, 16};
@@ -119,18 +93,16 @@ void time_slices(const std::string& name) {
       const double ms = renderer.render_frame(occlusion_options(counts[i])).frame_ms;
       if (round > 0) frames[i].push_back(ms);
     }
-  std::printf("%s, slices → ms a frame:", name.c_str());
-  for (std::size_t i = 0; i < counts.size(); ++i) std::printf("  %d → %.0f", counts[i], median(frames[i]));
-  std::printf("\n");
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    record.add(name + "/slices " + std::to_string(counts[i]) + "/frame", "ms", frames[i]);
 }
 
 }  // namespace
 
-void bench_occlusion_textures() {
-  time_prefilters();
-  for (const char* name : {"cube-medium", "foliage-medium"}) time_radii(name);
-  time_slices("foliage-medium");
-  std::printf("\n");
+void bench_occlusion_textures(Record& record, const SceneNames&) {
+  time_prefilters(record);
+  for (const char* name : {"cube-medium", "foliage-medium"}) time_radii(record, name);
+  time_slices(record, "foliage-medium");
 }
 
 }  // namespace penumbra::bench

@@ -1,5 +1,10 @@
+<<<<<<< HEAD
 // The silhouette method against rays: medians of interleaved frames, visibility alone; what is certified; and how
 // frames grow with faces and with the light.
+=======
+// The silhouette method against rays, visibility alone; what is certified; how frames grow with faces and with the light.
+#include <algorithm>
+>>>>>>> 36c16fe (Benchmarks record their figures as data, one file a machine; a part for volumes)
 #include <cstdio>
 #include <string>
 
@@ -19,25 +24,17 @@ struct Times {
   std::vector<double> silhouette, rays, reference;
 };
 
-double total(const std::vector<StageTime>& stages) {
-  double sum = 0.0;
-  for (const StageTime& s : stages) sum += s.milliseconds;
-  return sum;
-}
-
 /// One frame by each method, so that whatever else the machine does meets all three.
 void time_frame(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, Times& times) {
   ReferenceOptions options;
   options.samples = kSamples;
-  times.silhouette.push_back(total(silhouette_visibility(scene, rays, surface).stages));
+  times.silhouette.push_back(total_ms(silhouette_visibility(scene, rays, surface).stages));
   SilhouetteOptions certify;
   certify.integrate = false;
   const SilhouetteResult certified = silhouette_visibility(scene, rays, surface, certify);
   const ReferenceResult open = trace_reference(scene, rays, surface, certified.open, options);
-  times.rays.push_back(total(certified.stages) + open.milliseconds);
-  std::vector<std::uint32_t> pixels(surface.size());
-  std::iota(pixels.begin(), pixels.end(), 0u);
-  times.reference.push_back(trace_reference(scene, rays, surface, pixels, options).milliseconds);
+  times.rays.push_back(total_ms(certified.stages) + open.milliseconds);
+  times.reference.push_back(trace_reference(scene, rays, surface, all_pixels(surface), options).milliseconds);
 }
 
 /// Of the pixels that no face overlaps those that are certified lit, by geometry; of those that no one of
@@ -73,30 +70,40 @@ struct Stand {
   SurfaceBuffer surface;
 };
 
-/// One line: faces, band edges, median frame, and as a multiple of the first scene's; frames of both are
-/// interleaved.
-void time_growth(const char* what, const Stand& first, const Stand& stand) {
+/// The frame, and how many times that of the first stand it takes; frames of both are interleaved.
+void time_growth(Record& record, const std::string& what, const Stand& first, const Stand& stand) {
   constexpr int kPairs = 25;
-  std::vector<double> times, ratios;
+  std::vector<double> times, before;
   for (int i = 0; i <= kPairs; ++i) {
-    const double before = total(first.frame().stages), time = total(stand.frame().stages);
+    const double one = total_ms(first.frame().stages), other = total_ms(stand.frame().stages);
     if (i == 0) continue;  // warms up
-    times.push_back(time);
-    ratios.push_back(time / before);
+    before.push_back(one);
+    times.push_back(other);
   }
   const SilhouetteCounts c = stand.frame().counts;
-  std::printf("%-24s %8zu faces, %7zu edges in the band: %7.1f ms, %.2f× the first; %.1f MiB\n", what,
-              c.faces, c.band_edges, median(times), median(ratios), static_cast<double>(c.bytes) / 1048576.0);
-  std::fflush(stdout);
+  const std::string path = what + "/" + std::to_string(c.faces) + " faces";
+  record.add(path + "/band edges", "1", static_cast<double>(c.band_edges));
+  record.add(path + "/visibility", "ms", times);
+  record.add(path + "/times the first", "1", paired_ratios(times, before));
 }
 
-Scene bench_scene(const std::string& name) {
-  return load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+void time_radii(Record& record, const std::string& name) {
+  for (const double scale : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+    Scene scene = bench_scene(name);
+    scene.light.radius *= scale;
+    const Stand stand(scene);
+    Times times;
+    for (int i = 0; i <= kFrames; ++i) time_frame(stand.scene, stand.rays, stand.surface, times);
+    char radius[16];
+    std::snprintf(radius, sizeof radius, "%g", scene.light.radius);
+    const std::string path = name + "/radius " + radius;
+    record.add(path + "/silhouette", "ms", times.silhouette);
+    record.add(path + "/rays", "ms", times.rays);
+    record.add(path + "/reference", "ms", times.reference);
+  }
 }
 
-}  // namespace
-
-void time_silhouettes(const std::string& name) {
+void time_scene(Record& record, const std::string& name) {
   const Scene scene = bench_scene(name);
   const RayScene rays(scene, 0);
   const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
@@ -106,23 +113,28 @@ void time_silhouettes(const std::string& name) {
     time_frame(scene, rays, surface, times);
   }
   const SilhouetteResult r = silhouette_visibility(scene, rays, surface);
-  const SilhouetteCounts& c = r.counts;
   const CertifiedShares shares = certified_shares(scene, rays, surface, r.region);
-  const double ours = median(times.silhouette);
-  std::printf(
-      "%-24s silhouette %8.1f ms; rays %d only where open %6.1f×, everywhere %6.1f× that; %zu integrated, "
-      "%.1f edges each of %.1f listed; certified: %.4f of what no face overlaps, %.3f of umbra; %.1f MiB of "
-      "lists, "
-      "peak %.0f MiB\n",
-      name.c_str(), ours, kSamples, median(times.rays) / ours, median(times.reference) / ours, c.integrated,
-      static_cast<double>(c.segments) / static_cast<double>(std::max<std::size_t>(1, c.integrated)),
-      static_cast<double>(c.listed_edges) /
-          static_cast<double>(std::max<std::size_t>(1, c.tiles - c.empty_tiles)),
-      shares.lit, shares.umbra, static_cast<double>(c.bytes) / 1048576.0, peak_memory_mib());
-  std::fflush(stdout);
+  const auto each = [](std::size_t sum, std::size_t count) {
+    return static_cast<double>(sum) / static_cast<double>(std::max<std::size_t>(1, count));
+  };
+  record.add(name + "/silhouette", "ms", times.silhouette);
+  record.add(name + "/rays : silhouette", "1", paired_ratios(times.rays, times.silhouette));
+  record.add(name + "/reference : silhouette", "1", paired_ratios(times.reference, times.silhouette));
+  record.add(name + "/edges across the disk", "a receiver", each(r.counts.segments, r.counts.integrated));
+  record.add(name + "/certified of lit", "1", shares.lit);
+  record.add(name + "/certified of umbra", "1", shares.umbra);
+  record.add(name + "/lists", "MiB", static_cast<double>(r.counts.bytes) / 1048576.0);
+  record.add(name + "/hierarchy of edges", "ms", rays.edge_hierarchy_ms());
+  record.add(name + "/hierarchy of faces", "ms", rays.build_ms());
 }
 
-void time_silhouette_growth() {
+}  // namespace
+
+void bench_silhouette(Record& record, const SceneNames& scenes) {
+  for (const std::string& name : scenes) time_scene(record, name);
+}
+
+void bench_growth(Record& record, const SceneNames&) {
   Scene scene = bench_scene("sphere-medium");
   SceneObject& caster = scene.objects.back();
   const Bounds box = bounds_of(caster.mesh.positions());
@@ -131,24 +143,14 @@ void time_silhouette_growth() {
     return Stand(scene);
   };
   const Stand coarse_sphere = sphere(3);
-  for (int levels = 3; levels <= 8; ++levels) time_growth("sphere", coarse_sphere, sphere(levels));
+  for (int levels = 3; levels <= 8; ++levels) time_growth(record, "sphere", coarse_sphere, sphere(levels));
   Scene torus = bench_scene("torus-medium");
   const Stand coarse_torus(torus);
   for (int i = 0; i <= 5; ++i) {
     if (i > 0) torus.objects.back().mesh = testing::cut_in_four(torus.objects.back().mesh);
-    time_growth("torus, cut in four", coarse_torus, Stand(torus));
+    time_growth(record, "torus, cut in four", coarse_torus, Stand(torus));
   }
-  for (const double scale : {0.25, 0.5, 1.0, 2.0, 4.0}) {
-    scene = bench_scene("knot1-medium");
-    scene.light.radius *= scale;
-    const RayScene rays(scene, 0);
-    const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
-    Times times;
-    for (int i = 0; i <= kFrames; ++i) time_frame(scene, rays, surface, times);
-    std::printf("knot1, radius %-9.3g silhouette %7.1f ms, rays only where open %7.1f, everywhere %7.1f\n",
-                scene.light.radius, median(times.silhouette), median(times.rays), median(times.reference));
-    std::fflush(stdout);
-  }
+  time_radii(record, "knot1-medium");
 }
 
 }  // namespace penumbra::bench

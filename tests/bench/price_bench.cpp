@@ -1,11 +1,7 @@
-#include "tests/bench/classify_price.h"
-
+// What exact classification costs, and what plain arithmetic gets wrong.
 #include <tbb/global_control.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -17,16 +13,12 @@
 #include "penumbra/mesh/io/polygon_soup.h"
 #include "penumbra/mesh/shapes.h"
 #include "penumbra/volumes/classify.h"
+#include "tests/bench/bench_support.h"
 #include "tests/volumes/random_inputs.h"
 #include "volumes/predicates/predicate_tiers.h"
 
 namespace penumbra::bench {
 namespace {
-
-/// What else runs on the machine only adds to a time of microseconds: the least is the most honest.
-double least(const std::vector<double>& values) {
-  return *std::min_element(values.begin(), values.end());
-}
 
 struct Input {
   std::string name;
@@ -74,7 +66,7 @@ struct Way {
 };
 
 /// Runs take turns, so that what else the machine does hits all ways alike.
-void compare(const Input& in) {
+void compare(Record& record, const Input& in) {
   constexpr int kRuns = 60;
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const TriangleMesh mesh =
@@ -97,14 +89,14 @@ void compare(const Input& in) {
           std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / faces);
     }
   }
-  std::printf("%-22s %8zu", in.name.c_str(), in.triangles.size());
+  record.add(in.name + "/faces", "1", faces);
   for (const Way& way : ways) {
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < in.triangles.size(); ++i) wrong += way.classes[i] != ways.back().classes[i];
-    std::printf("  %s %.1f ns, %zu wrong", way.name, least(way.nanoseconds), wrong);
+    record.add(in.name + "/" + way.name, "ns a face", way.nanoseconds);
+    record.add(in.name + "/" + way.name + "/wrong", "faces", static_cast<double>(wrong));
   }
-  std::printf("  filtered / double %.2f\n", least(ways[2].nanoseconds) / least(ways[1].nanoseconds));
-  std::fflush(stdout);
+  record.add(in.name + "/filtered : double", "1", paired_ratios(ways[2].nanoseconds, ways[1].nanoseconds));
 }
 
 Input ordinary(const std::string& name, const TriangleMesh& mesh) {
@@ -142,16 +134,13 @@ Input tangent(bool rounded) {
 
 }  // namespace
 
-void compare_prices_of_classification() {
+void bench_price(Record& record, const SceneNames&) {
   const std::filesystem::path meshes = std::filesystem::path(PENUMBRA_DATA) / "meshes";
-  std::printf(
-      "classification, one thread, nanoseconds a face (least of 60 runs, of 3 for exact) and faces unlike "
-      "the exact class\n");
   for (const char* name : {"armadillo", "decorativePlant", "refined_elephant"})
-    compare(ordinary(name, read_mesh(meshes / (std::string(name) + ".ply"))));
-  compare(ordinary("sphere", make_icosphere({0, 0, 0}, 1.0, 7)));
-  compare(tangent(false));
-  compare(tangent(true));
+    compare(record, ordinary(name, read_mesh(meshes / (std::string(name) + ".ply"))));
+  compare(record, ordinary("sphere", make_icosphere({0, 0, 0}, 1.0, 7)));
+  compare(record, tangent(false));
+  compare(record, tangent(true));
 }
 
 }  // namespace penumbra::bench
