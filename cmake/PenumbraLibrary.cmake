@@ -20,13 +20,13 @@ endif()
 # source tree they stand beside the code that they are the contract of; this folder links to them, and to nothing else.
 set(PENUMBRA_PUBLIC_INCLUDE ${PROJECT_BINARY_DIR}/include)
 
-# penumbra_library(NAME FOLDERS... [PUBLIC HEADERS...]): the static library penumbra_NAME (alias penumbra::NAME) from every
-# .cpp of the folders. Folders and headers are relative to the calling folder. The headers are public: they are linked into
+# penumbra_library(NAME FOLDERS... [FILES...] [PUBLIC HEADERS...]): the static library penumbra_NAME (alias penumbra::NAME)
+# from every .cpp of the folders, and the files. All are relative to the calling folder. The headers are public: they are linked into
 # PENUMBRA_PUBLIC_INCLUDE and installed; all others are internal. The global property PENUMBRA_PUBLIC_HEADERS names the
 # public headers of all libraries, PENUMBRA_PUBLIC_HEADERS_NAME those of one.
 function(penumbra_library name)
-  cmake_parse_arguments(ARG "" "" "FOLDERS;PUBLIC" ${ARGN})
-  set(sources)
+  cmake_parse_arguments(ARG "" "" "FOLDERS;FILES;PUBLIC" ${ARGN})
+  set(sources ${ARG_FILES})
   foreach(folder IN LISTS ARG_FOLDERS)
     file(GLOB more CONFIGURE_DEPENDS ${folder}/*.cpp)
     list(APPEND sources ${more})

@@ -12,8 +12,9 @@ namespace penumbra {
 /// The wall-clock time of one stage, from its start until all of its work is finished.
 struct StageTime {
   std::string name;
-  double milliseconds;
+  double milliseconds = 0.0;
 };
+using StageTimes = std::vector<StageTime>;
 
 /// Measures stages that follow one another. The first begins when the clock is made.
 class StageClock {
@@ -36,11 +37,11 @@ class StageClock {
   }
   /// Begins the next stage now. The time since the last call is not recorded.
   void restart() { start_ = std::chrono::steady_clock::now(); }
-  const std::vector<StageTime>& stages() const { return stages_; }
+  const StageTimes& stages() const { return stages_; }
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::vector<StageTime> stages_;
+  StageTimes stages_;
 };
 
 }  // namespace penumbra

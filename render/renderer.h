@@ -1,78 +1,100 @@
-// One image: scene, method and options in; channels, stage times and counts out. What `penumbra render`
-// calls.
+// Pictures: a scene, a method and its options in; channels, stage times and counts out.
 //
-//   surface_buffer.h  what the camera sees          (the same points for every method)
-//   visibility        by the chosen method          (reference.h, d_buffer.h, occlusion_textures.h,
-//   silhouette.h, hard, none) shading.h         visibility → RGB              (the same code for every
-//   method)
+//   camera → surface buffer     what each pixel sees: receivers, the same for every method
+//   visibility                  by the chosen method, once a light             (visibility.h)
+//   shading                     visibility → RGB, summed over lights, the same code for every method
 #pragma once
 
-#include <nlohmann/json.hpp>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "penumbra/mesh/progress.h"
-#include "penumbra/mesh/stage_clock.h"
-#include "penumbra/render/scene/scene.h"
-#include "render/d_buffer/d_buffer.h"
-#include "render/gl/context.h"
-#include "render/image/image.h"
-#include "render/occlusion_textures/occlusion_textures.h"
-#include "render/rays/reference.h"
-#include "render/receivers/surface_buffer.h"
-#include "render/silhouette/silhouette_visibility.h"
+#include "penumbra/render/image/image.h"
+#include "penumbra/render/receivers/surface_buffer.h"
+#include "penumbra/render/visibility.h"
 
 namespace penumbra {
 
-enum class Method { kNone, kHard, kDBuffer, kOcclusionTextures, kSilhouette, kRays, kReference };
-Method method_of(const std::string& name);  ///< throws UsageError that lists the names
-const char* name_of(Method method);
-std::vector<std::string> method_names();
+/// Registers the methods that draw (OpenGL): dbuffer, occlusion-textures. Called again it does nothing.
+/// Renderers call it; call it yourself to list all methods before there is one.
+void register_drawing_methods();
 
 struct RenderOptions {
-  Method method = Method::kDBuffer;
-  int width = 640, height = 480;  ///< pixels
-  int threads = 0;                ///< 0: all cores
-  int warm_up = 0;                ///< frames rendered and thrown away before the one that is timed
-  gl::Backend backend = gl::Backend::kOsMesa;
-  ReferenceOptions reference;  ///< of the methods reference and rays
-  DBufferOptions d_buffer;
-  SilhouetteOptions silhouette;
-  OcclusionOptions occlusion;
-  bool keep_textures = false;  ///< RenderResult::textures is wanted
-  bool reuse = false;          ///< what neither camera nor light has changed since the frame before serves
-      ///< again (surface buffer; the D-buffer's classes, silhouettes and facets), where
-      ///< follow_light was not called: the same bits, and no stage times for it
-  Progress progress;  ///< asked between stages and in the long ones
+  std::string method = kDefaultMethod;
+  /// Those of other methods have no effect.
+  OptionValues options{};
+  /// Pixels, 1 to 65,536 a side.
+  int width = 640, height = 480;
+  /// MethodFrame::textures is wanted.
+  bool keep_textures = false;
+  /// A picture while a light moves: rays may keep the frame that they had for an earlier light. Right but for
+  /// the last digits of rays, and without the time that it takes to prepare rays for this light.
+  bool draft = false;
+  /// Asked between stages and in the long ones.
+  Progress progress{};
+};
+
+/// What the method did for one light.
+struct MethodFrame {
+  /// As in Scene::lights.
+  std::string light;
+  std::vector<float> visibility;
+  std::vector<std::int8_t> region;
+  StageTimes stages, setup;
+  Counts counts;
+  std::string renderer;
+  std::vector<TexturePicture> textures;
 };
 
 struct RenderResult {
-  Image image;  ///< every channel of the README
+  /// R G B A, visibility and region (visibility.NAME and region.NAME with several lights), object, P, N.
+  Image image;
   SurfaceBuffer surface;
-  std::vector<StageTime> stages;  ///< in order
-  double frame_ms = 0.0;          ///< all stages that a new frame needs (no file output, no one-time set-up)
-  nlohmann::json stats;           ///< what --stats writes
-  std::vector<TexturePicture> textures;  ///< on request, of the D-buffer or the occlusion textures
+  std::string method;
+  /// All options of the method, as used.
+  OptionValues options{};
+  /// One a light of the scene, in their order.
+  std::vector<MethodFrame> lights;
+  /// In order; times of one name are summed over lights.
+  StageTimes stages;
+  /// All stages that a new frame needs: no one-time set-up, no file output.
+  double frame_ms = 0.0;
+  /// One-time set-up so far.
+  StageTimes setup;
+  std::size_t scene_faces = 0;
 };
 
-RenderResult render(const Scene& scene, const RenderOptions& options);
-
-/// A renderer kept between frames: context, programs and the ray scene are set up once.
+/// Draws pictures of a scene that it owns. What has changed since the picture before it finds out itself: the
+/// camera, a light, the size, the method. What has not is kept (the surface buffer, classes and silhouettes,
+/// hierarchies, OpenGL contexts) and takes no time again.
+///
+/// To be used by one thread at a time, and destroyed by the thread that drew (OpenGL contexts are that
+/// thread's).
 class Renderer {
  public:
-  explicit Renderer(const Scene& scene, const RenderOptions& options);
+  /// `threads`: 0 means all cores. Copies of meshes are shared, not made.
+  explicit Renderer(Scene scene, int threads = 0);
   ~Renderer();
-  RenderResult render_frame(const RenderOptions& options);
-  /// To be called when the scene's light has moved or changed its size: the rays' frame follows it, so that
-  /// the next image is bit for bit that of a new renderer. What does not depend on the light is kept. Without
-  /// it images are right as well, but may differ in the last digits of rays (a draft's, while a light is
-  /// dragged within a few scene sizes). Cost: Embree's hierarchy is built anew.
-  void follow_light(const RenderOptions& options);
+
+  const Scene& scene() const;
+  void set_camera(const Camera& camera);
+  /// Throws UsageError for an index that no light has. The name must not change.
+  void set_light(std::size_t index, const Light& light);
+
+  /// Throws what visibility() and make_surface_buffer() throw.
+  RenderResult render(const RenderOptions& options);
+  /// The next picture finds everything anew but for one-time set-up, though nothing has changed: for timing.
+  void forget();
+  /// Shades the last picture's surface with other visibilities, one a light.
+  Image shade_again(const std::vector<std::vector<float>>& visibility) const;
+  int threads() const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// One picture. `warm_up` pictures are drawn and thrown away before it.
+RenderResult render(const Scene& scene, const RenderOptions& options, int threads = 0, int warm_up = 0);
 
 }  // namespace penumbra

@@ -6,7 +6,6 @@
 #include "apps/cli/reports.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
-#include "render/light/area_light.h"
 
 namespace penumbra::apps {
 namespace {
@@ -21,6 +20,7 @@ mesh is after building (see penumbra inspect); "input" is the face's number in t
 struct Arguments {
   CommonOptions common;
   SceneInput scene;
+  std::string light = "0";  ///< name or number
   bool json = false;
 };
 
@@ -63,15 +63,15 @@ std::string table_row(std::size_t number, const SceneObject& object, const Class
 void run(const Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
-  require_disk(scene, "penumbra classify");
+  const Light& of = scene.lights[scene.light_index(arguments.light)];
+  const DiskLight& light = require_disk(of.shape, "penumbra classify");
   nlohmann::json report = nlohmann::json::array();
   std::string table =
       "object     faces     front     mixed      none    umbra  penumbra    band    filter interval    exact "
       " mesh\n";
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const SceneObject& object = scene.objects[i];
-    const ShadowVolumes found =
-        build_shadow_volumes(object.mesh, scene.light, {.penumbra = false, .umbra = false});
+    const ShadowVolumes found = build_shadow_volumes(object.mesh, light, {.penumbra = false, .umbra = false});
     if (arguments.json)
       report.push_back(full_report(object, found.classes, found.silhouettes));
     else
@@ -90,6 +90,9 @@ void add_classify_command(CLI::App& app) {
       *app.add_subcommand("classify", "How each face looks from the disk, both silhouettes and the band");
   auto arguments = std::make_shared<Arguments>();
   add_scene_input(command, arguments->scene);
+  command.add_option("--light", arguments->light, "The light, by name or number")
+      ->type_name("NAME|N")
+      ->capture_default_str();
   command.add_flag("--json", arguments->json, "Print JSON with every face's class and the edge lists");
   add_common_options(command, arguments->common);
   command.footer(kFooter);

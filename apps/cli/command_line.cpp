@@ -6,6 +6,7 @@
 #include "apps/cli/commands.h"
 #include "apps/common/failures.h"
 #include "apps/common/messages.h"
+#include "penumbra/render/renderer.h"
 
 namespace penumbra::apps {
 namespace {
@@ -51,6 +52,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  register_drawing_methods();
   CLI::App app(kDescription, "penumbra");
   app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);
   app.require_subcommand(1);

@@ -27,7 +27,7 @@ struct Arguments {
   SceneInput scene;
   std::filesystem::path image, picture, signed_difference;
   TraceOptions trace;
-  std::optional<int> object;
+  Judged judged;
   bool json = false;
   double exposure = 0.0;
 
@@ -51,7 +51,8 @@ nlohmann::json to_json(const Arguments& arguments, const Comparison& comparison)
       {"image", arguments.image.string()},        {"reference", arguments.scene.path.string()},
       {"all", penumbra::to_json(comparison.all)}, {"penumbra", penumbra::to_json(comparison.in_penumbra)},
       {"skipped_pixels", comparison.skipped},     {"difference_scale", difference_scale(comparison)}};
-  if (arguments.object) report["object"] = *arguments.object;
+  if (arguments.judged.object) report["object"] = *arguments.judged.object;
+  if (!arguments.judged.light.empty()) report["light"] = arguments.judged.light;
   if (comparison.samples == 0) return report;
   report["samples"] = comparison.samples;
   report["resampled_pixels"] = comparison.resampled;
@@ -119,9 +120,9 @@ void run(const Arguments& arguments) {
   Comparison comparison;
   if (arguments.against_image()) {
     reference = read_exr(arguments.scene.path);
-    comparison = compare_images(image, *reference, arguments.object);
+    comparison = compare_images(image, *reference, arguments.judged);
   } else {
-    comparison = compare_to_scene(image, load(arguments.scene), arguments.object, arguments.trace);
+    comparison = compare_to_scene(image, load(arguments.scene), arguments.judged, arguments.trace);
   }
   std::string text = arguments.json ? to_text(to_json(arguments, comparison)) : to_table(comparison);
   if (!arguments.json && arguments.wants_pictures()) text += scale_line(difference_scale(comparison));
@@ -142,7 +143,13 @@ void add_compare_command(CLI::App& app) {
   command.add_option("--samples", arguments->trace.samples, "Rays a pixel of each of the two references")
       ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str();
-  command.add_option("--object", arguments->object, "Judge only pixels of this object (index in the scene)")
+  command
+      .add_option("--light", arguments->judged.light,
+                  "Judge this light's visibility, where the scene has several")
+      ->type_name("NAME");
+  command
+      .add_option("--object", arguments->judged.object,
+                  "Judge only pixels of this object (index in the scene)")
       ->check(CLI::NonNegativeNumber);
   command.add_flag("--json", arguments->json, "Print JSON");
   command

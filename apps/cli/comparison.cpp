@@ -8,9 +8,9 @@
 
 #include "apps/common/messages.h"
 #include "penumbra/mesh/error.h"
+#include "penumbra/render/receivers/surface_buffer.h"
 #include "render/rays/ray_scene.h"
 #include "render/rays/reference.h"
-#include "render/receivers/surface_buffer.h"
 
 namespace penumbra::apps {
 namespace {
@@ -29,9 +29,10 @@ constexpr std::size_t kWorstAtLeast = 1'000;
 constexpr std::uint64_t kSeeds[3] = {0x9e3779b97f4a7c15, 0xbf58476d1ce4e5b9, 0x94d049bb133111eb};
 
 // Receivers of the image: every pixel that sees a surface, of one object where asked.
-std::vector<std::uint32_t> receivers(const Image& image, std::optional<int> object) {
+std::vector<std::uint32_t> receivers(const Image& image, const Judged& judged) {
+  const std::optional<int>& object = judged.object;
   const std::vector<float>& objects = image.at("object");
-  const std::vector<float>& visibility = image.at("visibility");
+  const std::vector<float>& visibility = image.at(judged.channel());
   std::vector<std::uint32_t> pixels;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!(objects[i] >= 0.0f) || (object && objects[i] != static_cast<float>(*object))) continue;
@@ -75,21 +76,21 @@ std::vector<float> spread(const std::vector<float>& values, const std::vector<st
 // Traces visibility at pixels of one scene, keeping count of rays.
 class Tracer {
  public:
-  Tracer(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, Comparison& comparison)
-      : scene_(scene), rays_(rays), surface_(surface), comparison_(comparison) {}
+  Tracer(const RayScene& rays, const LightShape& light, const SurfaceBuffer& surface, Comparison& comparison)
+      : rays_(rays), light_(light), surface_(surface), comparison_(comparison) {}
 
   std::vector<float> trace(const std::vector<std::uint32_t>& pixels, int samples, std::uint64_t seed,
                            const std::string& label) {
     ProgressLine progress(label);
-    ReferenceResult result = trace_reference(scene_, rays_, surface_, pixels,
+    ReferenceResult result = trace_reference(rays_, light_, surface_.receivers(), pixels,
                                              {.samples = samples, .seed = seed}, false, progress.callback());
     comparison_.rays += result.rays;
     return std::move(result.visibility);
   }
 
  private:
-  const Scene& scene_;
   const RayScene& rays_;
+  const LightShape& light_;
   const SurfaceBuffer& surface_;
   Comparison& comparison_;
 };
@@ -136,30 +137,41 @@ void resample_worst(Comparison& comparison, const std::vector<float>& method, Re
   comparison.resamples = kResamples;
 }
 
+std::size_t light_of(const Scene& scene, const Judged& judged) {
+  if (!judged.light.empty()) return scene.light_index(judged.light);
+  if (scene.lights.size() == 1) return 0;
+  std::string names;
+  for (const Light& light : scene.lights) names += (names.empty() ? "" : ", ") + light.name;
+  throw UsageError("the scene has several lights; choose one of " + names + " with --light");
+}
+
 }  // namespace
 
-Comparison compare_images(const Image& image, const Image& reference, std::optional<int> object) {
+Comparison compare_images(const Image& image, const Image& reference, const Judged& judged) {
   if (image.width != reference.width || image.height != reference.height)
     throw UsageError("the images differ in size: " + std::to_string(image.width) + "x" +
                      std::to_string(image.height) + " and " + std::to_string(reference.width) + "x" +
                      std::to_string(reference.height) + "; render both with the same --size");
   Comparison comparison;
-  comparison.judged = receivers(image, object);
+  comparison.judged = receivers(image, judged);
   const std::vector<float>& theirs = reference.at("object");
   if (!keep_agreeing(comparison, [&](std::uint32_t i) { return image.at("object")[i] == theirs[i]; }))
     throw UsageError("the images do not show the same scene: objects differ at " +
                      std::to_string(comparison.skipped) + " pixels; render both from one scene");
-  receivers(reference, std::nullopt);  // refuses visibility that is not finite
-  set_figures(comparison, image.at("visibility"), {reference.at("visibility"), reference.at("visibility")});
+  receivers(reference, {std::nullopt, judged.light});  // refuses visibility that is not finite
+  const std::string channel = judged.channel();
+  set_figures(comparison, image.at(channel), {reference.at(channel), reference.at(channel)});
   return comparison;
 }
 
-Comparison compare_to_scene(const Image& image, const Scene& scene, std::optional<int> object,
+Comparison compare_to_scene(const Image& image, const Scene& scene, const Judged& judged,
                             const TraceOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   Comparison comparison;
-  comparison.judged = receivers(image, object);
-  const RayScene rays(scene, options.threads);
+  comparison.judged = receivers(image, judged);
+  const std::size_t light = light_of(scene, judged);
+  const RayScene rays(scene, ray_frame(scene, scene.lights[light].shape),
+                      detail::make_threads(options.threads));
   const SurfaceBuffer surface = make_surface_buffer(scene, rays, image.width, image.height);
   Bounds bounds = scene.bounds();
   bounds.add(scene.camera.eye);
@@ -169,14 +181,14 @@ Comparison compare_to_scene(const Image& image, const Scene& scene, std::optiona
                      std::to_string(comparison.skipped) +
                      " pixels; give the scene that it was rendered from");
 
-  Tracer tracer(scene, rays, surface, comparison);
+  Tracer tracer(rays, scene.lights[light].shape, surface, comparison);
   const auto reference = [&](int k) {
     const std::string label = "reference " + std::to_string(k + 1) + " of 2";
     return spread(tracer.trace(comparison.judged, options.samples, kSeeds[k], label), comparison.judged,
                   surface.size());
   };
   References references{.first = reference(0), .second = reference(1)};
-  const std::vector<float>& method = image.at("visibility");
+  const std::vector<float>& method = image.at(judged.channel());
   comparison.samples = options.samples;
   set_figures(comparison, method, references);
   if (!comparison.penumbra.empty()) resample_worst(comparison, method, std::move(references), tracer);

@@ -3,11 +3,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "penumbra/render/image/error_figures.h"
+#include "penumbra/render/image/image.h"
 #include "penumbra/render/scene/scene.h"
-#include "render/image/error_figures.h"
-#include "render/image/image.h"
 
 namespace penumbra::apps {
 
@@ -24,15 +25,23 @@ struct Comparison {
   double seconds = 0.0;
 };
 
+/// What of the images is judged.
+struct Judged {
+  std::optional<int> object;  ///< only pixels of this object
+  std::string light;          ///< the light's name; empty: the only one
+  std::string channel() const { return light.empty() ? "visibility" : "visibility." + light; }
+};
+
 /// The reference is taken as free of noise. Throws UsageError where the two do not show the same scene.
-Comparison compare_images(const Image& image, const Image& reference, std::optional<int> object);
+Comparison compare_images(const Image& image, const Image& reference, const Judged& judged);
 
 struct TraceOptions {
   int samples = 4'096;  ///< of each of the two references, with seeds of their own
   int threads = 0;
 };
-/// Throws SceneError where the image was not rendered from this scene.
-Comparison compare_to_scene(const Image& image, const Scene& scene, std::optional<int> object,
+/// Throws SceneError where the image was not rendered from this scene, UsageError where the scene has several
+/// lights and none is named.
+Comparison compare_to_scene(const Image& image, const Scene& scene, const Judged& judged,
                             const TraceOptions& options);
 
 }  // namespace penumbra::apps

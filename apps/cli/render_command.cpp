@@ -8,6 +8,7 @@
 #include "apps/common/method_options.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
+#include "apps/common/stats.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
 
@@ -17,26 +18,26 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   penumbra render bunny.ply --output bunny.png
   penumbra render scene.json --method reference --samples 1024 --size 1280x960 --output r.exr
-  penumbra render scene.json --method dbuffer --output d.exr --output d.png --stats d.json
+  penumbra render scene.json --output s.exr --output s.png --stats s.json
   penumbra render scene.json --output - | display
 Lengths are scene units, times in --stats milliseconds, visibility the fraction of the disk seen (0 to 1).)";
 
 struct Arguments {
   CommonOptions common;
   SceneInput scene;
-  std::string method = "dbuffer", size = "640x480", backend = "osmesa", probe;
+  std::string method = kDefaultMethod, size = "640x480", probe;
   std::vector<std::filesystem::path> outputs;
   std::filesystem::path stats;
   double exposure = 0.0;
-  RenderOptions render;
+  int warm_up = 0;
+  OptionValues options;
 };
 
 // Everything that can be refused without reading the scene.
 RenderOptions checked_options(const Arguments& arguments) {
-  RenderOptions options = arguments.render;
-  options.method = method_of(arguments.method);
-  options.backend = gl::backend_of(arguments.backend);
-  options.threads = arguments.common.threads;
+  RenderOptions options;
+  options.method = method_named(arguments.method).name;
+  options.options = arguments.options;
   const PixelPair size = parse_size(arguments.size);
   options.width = size.x;
   options.height = size.y;
@@ -73,7 +74,7 @@ void run(const Arguments& arguments) {
   {
     ProgressLine progress("rendering");
     options.progress = progress.callback();
-    result = render(scene, options);
+    result = render(scene, options, arguments.common.threads, arguments.warm_up);
   }
   if (arguments.common.verbose) say_stages(result);
   for (const auto& output : arguments.outputs) {
@@ -82,10 +83,11 @@ void run(const Arguments& arguments) {
     else
       write_png(output, result.image, arguments.exposure);
   }
-  if (!arguments.stats.empty()) write_json(arguments.stats, result.stats);
+  if (!arguments.stats.empty())
+    write_json(arguments.stats, stats_of(result, used_threads(arguments.common.threads)));
   if (!arguments.probe.empty())
-    print(to_text(
-        probe_pixel(scene, result, options, parse_pixel(arguments.probe, {options.width, options.height}))));
+    print(to_text(probe_pixel(scene, result, arguments.common.threads,
+                              parse_pixel(arguments.probe, {options.width, options.height}))));
 }
 
 }  // namespace
@@ -94,11 +96,9 @@ void add_render_command(CLI::App& app) {
   CLI::App& command =
       *app.add_subcommand("render", "An image of a scene's soft shadow, by one of several methods");
   auto arguments = std::make_shared<Arguments>();
-  std::string methods;
-  for (const std::string& name : method_names()) methods += (methods.empty() ? "" : ", ") + name;
 
   add_scene_input(command, arguments->scene);
-  command.add_option("-m,--method", arguments->method, "How visibility is computed: " + methods)
+  command.add_option("-m,--method", arguments->method, "How visibility is computed: " + method_words())
       ->capture_default_str();
   command
       .add_option(
@@ -120,14 +120,10 @@ void add_render_command(CLI::App& app) {
       .add_option("--probe", arguments->probe,
                   "Print what is at this pixel as JSON, with 4,096 reference rays; 0,0 is the top left")
       ->type_name("X,Y");
-  command
-      .add_option("--warm-up", arguments->render.warm_up,
-                  "Frames rendered and thrown away before the timed one")
+  command.add_option("--warm-up", arguments->warm_up, "Frames rendered and thrown away before the timed one")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command.add_option("--backend", arguments->backend, "OpenGL without a window: osmesa or egl")
-      ->capture_default_str();
-  add_method_options(command, arguments->render);
+  add_method_options(command, arguments->options);
   add_common_options(command, arguments->common);
   command.footer(kFooter);
   command.callback([arguments] { run(*arguments); });

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <numeric>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/reports.h"
@@ -12,7 +13,6 @@
 #include "apps/common/scene_volumes.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/volumes/checks/checks.h"
-#include "render/light/area_light.h"
 
 namespace penumbra::apps {
 namespace {
@@ -34,6 +34,7 @@ struct Arguments {
   CommonOptions common;
   SceneInput scene;
   std::filesystem::path umbra, penumbra, sheets, report;
+  std::string light;  ///< name or number; empty: each
   bool merge = false, check = false;
   int cone_segments = ExtrudeOptions{}.cone_segments;
 
@@ -68,11 +69,10 @@ void check(const Arguments& arguments) {
   require_writable(arguments.report);
 }
 
-void add_object(const Arguments& arguments, const Scene& scene, std::size_t number,
-                const VolumeOptions& options, Volumes& volumes) {
-  const SceneObject& object = scene.objects[number];
+void add_object(const Arguments& arguments, const SceneObject& object, std::size_t number,
+                const DiskLight& light, const VolumeOptions& options, Volumes& volumes) {
   const std::size_t faces = object.mesh.triangles().size();
-  ShadowVolumes made = build_shadow_volumes(object.mesh, scene.light, options);
+  ShadowVolumes made = build_shadow_volumes(object.mesh, light, options);
   nlohmann::json report = classification_report(made.classes);
   report["object"] = number;
   report["mesh"] = object.name;
@@ -83,8 +83,7 @@ void add_object(const Arguments& arguments, const Scene& scene, std::size_t numb
   if (options.umbra) report["umbra"] = shadow_report(made.umbra, faces);
   if (arguments.check) {
     StageClock clock;
-    const VolumeFindings findings =
-        validate(object.mesh, scene.light, made.umbra, made.penumbra, options.extrude);
+    const VolumeFindings findings = validate(object.mesh, light, made.umbra, made.penumbra, options.extrude);
     clock.finish("check");
     made.stages.push_back(clock.stages().front());
     report["check"] = check_report(findings);
@@ -99,12 +98,12 @@ void add_object(const Arguments& arguments, const Scene& scene, std::size_t numb
   volumes.umbra.push_back(std::move(made.umbra));
 }
 
-Volumes build_volumes(const Arguments& arguments, const Scene& scene) {
+Volumes build_volumes(const Arguments& arguments, const Scene& scene, const DiskLight& light) {
   Volumes volumes;
   VolumeOptions options{.sheets = arguments.wants_sheets(),
                         .penumbra = arguments.wants_penumbra(),
                         .umbra = arguments.wants_umbra(),
-                        .extrude = extrude_options_for(scene)};
+                        .extrude = extrude_options_for(scene, light)};
   options.extrude.cone_segments = arguments.cone_segments;
   ProgressLine line("volumes");
   const Progress progress = line.callback();
@@ -114,7 +113,7 @@ Volumes build_volumes(const Arguments& arguments, const Scene& scene) {
     options.extrude.object = static_cast<std::uint32_t>(i);
     options.extrude.progress =
         part_of(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
-    add_object(arguments, scene, i, options, volumes);
+    add_object(arguments, scene.objects[i], i, light, options, volumes);
   }
   if (volumes.objects.empty()) complain("warning: no object of the scene casts; the volumes are empty");
   return volumes;
@@ -130,32 +129,57 @@ void say(const nlohmann::json& objects) {
     }
 }
 
-void write(const Arguments& arguments, const Volumes& volumes) {
+/// "u.ply" → "u.NAME.ply"; as it is where the scene has one light or one was chosen.
+std::filesystem::path file_of(const std::filesystem::path& path, const std::string& light) {
+  if (light.empty() || path.empty()) return path;
+  std::filesystem::path named = path;
+  return named.replace_filename(path.stem().string() + "." + light + path.extension().string());
+}
+
+/// Writes one light's volumes; returns its report. `light`: its name where several lights are written.
+nlohmann::json write(const Arguments& arguments, const Volumes& volumes, const std::string& light) {
   nlohmann::json report = {{"objects", volumes.objects}};
+  if (!light.empty()) report["light"] = light;
   const auto write_one = [&](const char* name, bool wanted, const std::filesystem::path& path,
                              const std::vector<ShadowMesh>& parts) {
     const ShadowMesh whole = merge(parts);
-    if (!path.empty()) write_shadow_mesh(path, whole);
+    if (!path.empty()) write_shadow_mesh(file_of(path, light), whole);
     if (arguments.merge && wanted && !parts.empty())
       report["scene"][name] = shadow_report(whole, volumes.caster_faces);
   };
   write_one("sheets", arguments.wants_sheets(), arguments.sheets, volumes.sheets);
   write_one("penumbra", arguments.wants_penumbra(), arguments.penumbra, volumes.penumbra);
   write_one("umbra", arguments.wants_umbra(), arguments.umbra, volumes.umbra);
-  if (!arguments.report.empty()) write_json(arguments.report, report);
+  return report;
+}
+
+std::vector<std::size_t> chosen_lights(const Arguments& arguments, const Scene& scene) {
+  if (!arguments.light.empty()) return {scene.light_index(arguments.light)};
+  std::vector<std::size_t> all(scene.lights.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
 }
 
 void run(const Arguments& arguments) {
   check(arguments);
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
-  require_disk(scene, "penumbra volumes");
-  const Volumes volumes = build_volumes(arguments, scene);
-  if (arguments.common.verbose) say(volumes.objects);
-  write(arguments, volumes);
-  if (arguments.check && arguments.report != "-") print(volumes.findings);
-  if (!volumes.good)
-    throw SystemError("the volumes did not pass --check; please report the scene with this output");
+  const std::vector<std::size_t> lights = chosen_lights(arguments, scene);
+  for (const std::size_t k : lights) require_disk(scene.lights[k].shape, "penumbra volumes");
+  nlohmann::json reports = nlohmann::json::array();
+  bool good = true;
+  for (const std::size_t k : lights) {
+    const std::string name = lights.size() > 1 ? scene.lights[k].name : "";
+    const Volumes volumes = build_volumes(arguments, scene, std::get<DiskLight>(scene.lights[k].shape));
+    if (arguments.common.verbose) say(volumes.objects);
+    reports.push_back(write(arguments, volumes, name));
+    if (arguments.check && arguments.report != "-")
+      print((name.empty() ? "" : "light " + name + "\n") + volumes.findings);
+    good = good && volumes.good;
+  }
+  if (!arguments.report.empty())
+    write_json(arguments.report, lights.size() > 1 ? nlohmann::json{{"lights", reports}} : reports.front());
+  if (!good) throw SystemError("the volumes did not pass --check; please report the scene with this output");
 }
 
 }  // namespace
@@ -176,6 +200,12 @@ void add_volumes_command(CLI::App& app) {
       "--merge", arguments->merge,
       "One volume for the whole scene (inside: winding number at least 1 over all triangles), and its "
       "figures in the report; otherwise each object's triangles are a volume of their own");
+  command
+      .add_option(
+          "--light", arguments->light,
+          "Only for this light, by name or number; otherwise for each, in files called FILE.LIGHT.ply where "
+          "the scene has several")
+      ->type_name("NAME|N");
   command.add_flag("--check", arguments->check,
                    "Say whether the volumes are closed, cross themselves and lie inside each other");
   command.add_option("--cone-segments", arguments->cone_segments, "Corners of the polygon around the disk")

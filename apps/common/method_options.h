@@ -1,7 +1,9 @@
-// The options of every method, in one place.
+// The options of every method on a command line, as their schemas say.
 #pragma once
 
-#include "penumbra/render/renderer.h"
+#include <string>
+
+#include "penumbra/render/method.h"
 
 namespace CLI {
 class App;
@@ -9,7 +11,11 @@ class App;
 
 namespace penumbra::apps {
 
-/// Adds one option group a method. Options of methods that are not rendered have no effect.
-void add_method_options(CLI::App& command, RenderOptions& options);
+/// Adds every option of every method, in a group for each set of methods that has it. What is given goes into
+/// `values`, which must outlive the command. Options of methods that are not used have no effect.
+void add_method_options(CLI::App& command, OptionValues& values);
+
+/// "silhouette, reference, ...": what --method takes.
+std::string method_words();
 
 }  // namespace penumbra::apps

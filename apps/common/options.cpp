@@ -2,6 +2,8 @@
 
 #include <tbb/global_control.h>
 
+#include <thread>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
@@ -41,6 +43,10 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command
       .add_flag("-v,--verbose", options.verbose, "Say on standard error what is done and how long it takes")
       ->group("General");
+}
+
+int used_threads(int threads) {
+  return threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
 }
 
 struct ThreadLimit::Control {

@@ -19,6 +19,9 @@ struct CommonOptions {
 };
 void add_common_options(CLI::App& command, CommonOptions& options);
 
+/// How many threads are used where so many are asked for.
+int used_threads(int threads);
+
 /// Holds every parallel loop of the program to `threads` while it lives; 0 leaves all cores.
 class ThreadLimit {
  public:

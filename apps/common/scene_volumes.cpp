@@ -2,10 +2,10 @@
 
 namespace penumbra::apps {
 
-ExtrudeOptions extrude_options_for(const Scene& scene) {
+ExtrudeOptions extrude_options_for(const Scene& scene, const DiskLight& light) {
   Bounds bounds = scene.bounds();
-  bounds.add(scene.light.center - Vec3(scene.light.radius));
-  bounds.add(scene.light.center + Vec3(scene.light.radius));
+  bounds.add(light.center - Vec3(light.radius));
+  bounds.add(light.center + Vec3(light.radius));
   ExtrudeOptions options;
   options.bound_center = bounds.center();
   options.bound_radius = 1.01 * bounds.radius();

@@ -6,7 +6,7 @@
 
 namespace penumbra::apps {
 
-/// The bound is a sphere around everything, light included: every volume reaches beyond it.
-ExtrudeOptions extrude_options_for(const Scene& scene);
+/// The bound is a sphere around all objects and this light: every volume reaches beyond it.
+ExtrudeOptions extrude_options_for(const Scene& scene, const DiskLight& light);
 
 }  // namespace penumbra::apps

@@ -103,20 +103,20 @@ float open_fraction(float delta) {
 
 }  // namespace
 
-CenterRays::CenterRays(const SurfaceBuffer& surface, const RayScene& rays)
+CenterRays::CenterRays(const Receivers& surface, const RayScene& rays)
     : rays_(rays),
       pixels_(surface.size()),
       width_(static_cast<std::uint32_t>(surface.width)),
       place_(surface.size(), 0) {
   const auto count = static_cast<std::size_t>(
-      std::count_if(surface.object.begin(), surface.object.end(), [](int object) { return object >= 0; }));
+      std::count_if(surface.objects.begin(), surface.objects.end(), [](int object) { return object >= 0; }));
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
   for (auto* list : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) list->assign(padded, 0.0f);
   pixel_.reserve(count);
   const auto add = [&](std::uint32_t i) {
-    if (!surface.hit(i)) return;
-    const Vec3& n = surface.normal[i];
-    const glm::vec3 p(rays.frame().to_local(surface.position[i]) + kRayOffset * n);
+    if (!surface.is_present(i)) return;
+    const Vec3& n = surface.normals[i];
+    const glm::vec3 p(rays.frame().to_local(surface.points[i]) + kRayOffset * n);
     const std::size_t k = pixel_.size();
     place_[i] = static_cast<std::uint32_t>(k);
     x_[k] = p.x, y_[k] = p.y, z_[k] = p.z;

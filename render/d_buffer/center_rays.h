@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "penumbra/render/receivers/receivers.h"
 #include "render/rays/ray_scene.h"
-#include "render/receivers/surface_buffer.h"
 
 namespace penumbra {
 namespace detail {
@@ -20,7 +20,7 @@ struct ReceiverLanes;
 class CenterRays {
  public:
   /// Copies what it needs of `surface`; `rays` must outlive it.
-  CenterRays(const SurfaceBuffer& surface, const RayScene& rays);
+  CenterRays(const Receivers& surface, const RayScene& rays);
   /// Into `out` one per pixel of the surface buffer: 1 where nothing lies between it and the disk's center,
   /// else 0. Where the center is below the receiver's horizon and part of the disk is above it, the middle of
   /// that part's extent takes its place. Points behind the light and such that see nothing of it count as

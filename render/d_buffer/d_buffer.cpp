@@ -40,7 +40,7 @@ glm::mat3 light_matrix(const LightFrame& axes) {
 struct DBuffer::Impl {
   Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_);
 
-  void set_surface(const SurfaceBuffer& surface);
+  void set_surface(const Receivers& surface);
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress);
   std::vector<TexturePicture> textures() const;
 
@@ -136,15 +136,16 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
   gl::require_no_error(gl, "uploading casters");
 }
 
-void DBuffer::Impl::set_surface(const SurfaceBuffer& surface) {
+void DBuffer::Impl::set_surface(const Receivers& surface) {
   std::vector<std::uint32_t> first_face{0};
   for (const SceneObject& object : scene.objects)
     first_face.push_back(first_face.back() + static_cast<std::uint32_t>(object.mesh.triangles().size()));
   std::vector<glm::vec4> positions(surface.size(), glm::vec4(0.0f));
   for (std::size_t i = 0; i < surface.size(); ++i) {
-    if (!surface.hit(i)) continue;
-    const std::uint32_t face = first_face[static_cast<std::size_t>(surface.object[i])] + surface.face[i] + 1;
-    positions[i] = glm::vec4(glm::vec3((surface.position[i] - origin) * scale), static_cast<float>(face));
+    if (!surface.is_present(i)) continue;
+    const std::uint32_t face =
+        first_face[static_cast<std::size_t>(surface.objects[i])] + surface.faces[i] + 1;
+    positions[i] = glm::vec4(glm::vec3((surface.points[i] - origin) * scale), static_cast<float>(face));
   }
   const detail::ReceiverCloud receivers(positions);
   for (Caster& caster : casters) caster.planes.set_receivers(receivers);
@@ -380,7 +381,7 @@ DBuffer::~DBuffer() {
   if (impl_) impl_->context.make_current();
 }
 
-void DBuffer::set_surface(const SurfaceBuffer& surface) {
+void DBuffer::set_surface(const Receivers& surface) {
   impl_->context.make_current();
   const gl::StateScope scope(impl_->gl);
   impl_->set_surface(surface);

@@ -16,12 +16,13 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
+#include "penumbra/render/support/counts.h"
+#include "penumbra/render/support/texture_picture.h"
 #include "render/gl/context.h"
-#include "render/receivers/surface_buffer.h"
-#include "render/support/counts.h"
+#include "render/rays/ray_scene.h"
 #include "render/support/named_value.h"
-#include "render/support/texture_picture.h"
 
 namespace penumbra {
 
@@ -84,7 +85,7 @@ class DBuffer {
   DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~DBuffer();
   /// The receivers, once per camera; copied. Cost O(pixels).
-  void set_surface(const SurfaceBuffer& surface);
+  void set_surface(const Receivers& surface);
   /// All that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility; the first
   /// three are kept while the light stays as it is. Throws UsageError for a size or entries outside their
   /// range and before set_surface, SystemError where OpenGL fails, Cancelled. Cost O(faces + band + texels +

@@ -82,14 +82,14 @@ DBufferShading::DBufferShading(const gl::Functions& gl)
 
 DBufferShading::~DBufferShading() = default;
 
-void DBufferShading::set_surface(const SurfaceBuffer& surface, std::vector<glm::vec4> positions,
+void DBufferShading::set_surface(const Receivers& surface, std::vector<glm::vec4> positions,
                                  const RayScene& rays) {
   width_ = surface.width;
   height_ = surface.height;
   positions_ = std::move(positions);
   normals_.assign(surface.size(), glm::vec4(0.0f));
   for (std::size_t i = 0; i < surface.size(); ++i)
-    if (surface.hit(i)) normals_[i] = glm::vec4(glm::vec3(surface.normal[i]), 0.0f);
+    if (surface.is_present(i)) normals_[i] = glm::vec4(glm::vec3(surface.normals[i]), 0.0f);
   const auto upload = [&](const std::vector<glm::vec4>& texels) {
     auto texture = image_texture(gl_, GL_RGBA32F, width_, height_);
     gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, texels.data());

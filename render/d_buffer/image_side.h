@@ -29,7 +29,7 @@ class DBufferShading {
   ~DBufferShading();
   /// `positions` are those of the surface buffer in the scene's frame, the fourth number 1 + the face's
   /// number over all objects, 0 where nothing is seen. Uploads them. `rays` must outlive this.
-  void set_surface(const SurfaceBuffer& surface, std::vector<glm::vec4> positions, const RayScene& rays);
+  void set_surface(const Receivers& surface, std::vector<glm::vec4> positions, const RayScene& rays);
   bool has_surface() const { return width_ > 0; }
   int automatic_size() const { return d_buffer_size_for(width_, height_); }
 

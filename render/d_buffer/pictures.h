@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "penumbra/render/support/texture_picture.h"
 #include "render/d_buffer/layers.h"
-#include "render/support/texture_picture.h"
 
 namespace penumbra::detail {
 

@@ -1,4 +1,4 @@
-#include "render/image/error_figures.h"
+#include "penumbra/render/image/error_figures.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "render/image/image.h"
+#include "penumbra/render/image/image.h"
 
 #include "penumbra/mesh/error.h"
 

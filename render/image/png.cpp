@@ -9,7 +9,7 @@
 
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
-#include "render/image/image.h"
+#include "penumbra/render/image/image.h"
 
 namespace penumbra {
 namespace {

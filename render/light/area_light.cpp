@@ -3,7 +3,6 @@
 #include <glm/geometric.hpp>
 
 #include "mesh/vectors.h"
-#include "penumbra/mesh/error.h"
 
 namespace penumbra {
 
@@ -15,20 +14,13 @@ Vec3 AreaLight::to_light(const Vec3& world) const {
   return direction_to_light(world - center);
 }
 
-AreaLight area_light(const Scene& scene) {
-  if (!scene.rectangle)
-    return {light_frame(scene.light), scene.light.center, glm::dvec2(scene.light.radius), true};
-  const Vec3 w = detail::unit(scene.light.normal), t = detail::unit(scene.rectangle->tangent);
+AreaLight area_light(const LightShape& shape) {
+  if (const auto* disk = std::get_if<DiskLight>(&shape))
+    return {light_frame(*disk), disk->center, glm::dvec2(disk->radius), true};
+  const auto& rectangle = std::get<RectangleLight>(shape);
+  const Vec3 w = detail::unit(rectangle.normal), t = detail::unit(rectangle.tangent);
   const Vec3 v = glm::normalize(glm::cross(w, t));
-  return {{glm::cross(v, w), v, w}, scene.light.center, scene.rectangle->half_extents, false};
-}
-
-const DiskLight& require_disk(const Scene& scene, const std::string& who) {
-  if (scene.rectangle)
-    throw UsageError(who +
-                     " needs a disk light and the scene's is a rectangle; give it \"shape\": \"disk\" and a "
-                     "radius");
-  return scene.light;
+  return {{glm::cross(v, w), v, w}, rectangle.center, rectangle.half_extents, false};
 }
 
 }  // namespace penumbra

@@ -1,10 +1,9 @@
-// The light as an area in a frame of its own, for the methods that take a disk or a rectangle.
+// A light as an area in a frame of its own, for what takes a disk or a rectangle.
 #pragma once
 
 #include <glm/vec2.hpp>
-#include <string>
 
-#include "penumbra/render/scene/scene.h"
+#include "penumbra/render/light/light.h"
 
 namespace penumbra {
 
@@ -20,9 +19,6 @@ struct AreaLight {
   Vec3 to_light(const Vec3& world) const;
   Vec3 direction_to_light(const Vec3& world) const;
 };
-AreaLight area_light(const Scene& scene);
-
-/// The scene's disk. Throws UsageError, beginning with `who`, where the light is a rectangle.
-const DiskLight& require_disk(const Scene& scene, const std::string& who);
+AreaLight area_light(const LightShape& shape);
 
 }  // namespace penumbra

@@ -1,7 +1,10 @@
 // Stratified samples of the unit square and the unit disk, the same for every machine and thread count.
 #pragma once
 
+#include <bit>
 #include <cstdint>
+
+#include "penumbra/mesh/types.h"
 
 namespace penumbra::detail {
 
@@ -70,6 +73,17 @@ inline DiskPoint disk_sample(std::uint32_t key, std::uint32_t i, float column, f
 inline std::uint32_t sample_key(std::uint64_t seed, std::uint32_t pixel) {
   return mix(mix(pixel + 0x51633e2du) ^ mix(static_cast<std::uint32_t>(seed) * 0x2c1b3c6du +
                                             static_cast<std::uint32_t>(seed >> 32) + 0x297a2d39u));
+}
+
+/// The stream of a point in the world.
+inline std::uint32_t sample_key(std::uint64_t seed, const Vec3& point) {
+  std::uint32_t h = 0x9e3779b9u;
+  for (int k = 0; k < 3; ++k) {
+    const auto bits = std::bit_cast<std::uint64_t>(point[k] + 0.0);  // +0 for -0
+    h = mix(h ^ static_cast<std::uint32_t>(bits)) + static_cast<std::uint32_t>(bits >> 32);
+    h = mix(h);
+  }
+  return sample_key(seed, h);
 }
 
 }  // namespace penumbra::detail

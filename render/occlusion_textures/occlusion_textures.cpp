@@ -10,8 +10,8 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/gl/state_scope.h"
+#include "render/light/light_integrals.h"
 #include "render/occlusion_textures/lookup.h"
-#include "render/shading/shading.h"
 
 namespace penumbra {
 namespace {
@@ -34,7 +34,7 @@ void require_valid(const OcclusionOptions& o) {
 
 struct OcclusionTextures::Impl {
   Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_);
-  OcclusionFrame render(const AreaLight& light, const SurfaceBuffer& surface, const OcclusionOptions& options,
+  OcclusionFrame render(const AreaLight& light, const Receivers& surface, const OcclusionOptions& options,
                         const Progress& progress);
 
   /// What one frame knows before anything is drawn.
@@ -47,7 +47,7 @@ struct OcclusionTextures::Impl {
   Plan plan(const detail::SliceSpace& space, const OcclusionOptions& options) const;
   detail::DepthRange range_to_slice(const detail::DepthRange& of_casters, const detail::SliceSpace& space,
                                     const OcclusionOptions& options) const;
-  void look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
+  void look_up(const detail::SliceSpace& space, const Receivers& surface,
                const detail::OcclusionLookup* lookup, const Progress& progress,
                std::vector<float>& visibility) const;
 
@@ -119,7 +119,7 @@ OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceS
 }
 
 /// `lookup`: none where nothing casts.
-void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const SurfaceBuffer& surface,
+void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Receivers& surface,
                                       const detail::OcclusionLookup* lookup, const Progress& progress,
                                       std::vector<float>& visibility) const {
   visibility.assign(surface.size(), 1.0f);
@@ -132,9 +132,9 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Sur
       for (int x = left; x < std::min(left + kTile, surface.width); ++x) {
         const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
                               static_cast<std::size_t>(x);
-        if (!surface.hit(i)) continue;
-        const Vec3 p = space.to_light(surface.position[i]);
-        const double above = fraction_above_horizon(space.light, surface.position[i], surface.normal[i]);
+        if (!surface.is_present(i)) continue;
+        const Vec3 p = space.to_light(surface.points[i]);
+        const double above = fraction_above_horizon(space.light, surface.points[i], surface.normals[i]);
         visibility[i] = static_cast<float>(above);
         if (!lookup || !(p.z > 0.0) || !(above > 0.0)) continue;
         pixels[receivers.count] = i;
@@ -155,7 +155,7 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Sur
   }
 }
 
-OcclusionFrame OcclusionTextures::Impl::render(const AreaLight& light, const SurfaceBuffer& surface,
+OcclusionFrame OcclusionTextures::Impl::render(const AreaLight& light, const Receivers& surface,
                                                const OcclusionOptions& options, const Progress& progress) {
   OcclusionFrame frame;
   StageClock clock;
@@ -252,7 +252,7 @@ OcclusionTextures::~OcclusionTextures() {
   if (impl_) impl_->context.make_current();
 }
 
-OcclusionFrame OcclusionTextures::render(const AreaLight& light, const SurfaceBuffer& surface,
+OcclusionFrame OcclusionTextures::render(const AreaLight& light, const Receivers& surface,
                                          const OcclusionOptions& options, const Progress& progress) {
   require_valid(options);
   impl_->context.make_current();

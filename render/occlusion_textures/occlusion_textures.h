@@ -22,14 +22,14 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
+#include "penumbra/render/support/counts.h"
+#include "penumbra/render/support/texture_picture.h"
 #include "render/gl/context.h"
 #include "render/light/area_light.h"
 #include "render/rays/ray_scene.h"
-#include "render/receivers/surface_buffer.h"
-#include "render/support/counts.h"
 #include "render/support/named_value.h"
-#include "render/support/texture_picture.h"
 
 namespace penumbra {
 
@@ -104,7 +104,7 @@ class OcclusionTextures {
   /// Everything is made anew for the light, a disk or a rectangle: slices, prefilters, lookups. The light must have an
   /// extent. Nothing behind its plane casts, and what is closer to it than 1/8192 of the scene
   /// is cut off. Throws UsageError for options outside their range, Cancelled.
-  OcclusionFrame render(const AreaLight& light, const SurfaceBuffer& surface, const OcclusionOptions& options,
+  OcclusionFrame render(const AreaLight& light, const Receivers& surface, const OcclusionOptions& options,
                         const Progress& progress = {});
 
  private:

@@ -36,12 +36,13 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-RayFrame ray_frame(const Scene& scene) {
+RayFrame ray_frame(const Scene& scene, const LightShape& light) {
+  const DiskLight disk = disk_around(light);
   RayFrame frame;
-  frame.origin = scene.light.center;
+  frame.origin = disk.center;
   Bounds bounds = scene.bounds();
-  bounds.add(scene.light.center);
-  double reach = scene.light.radius;
+  bounds.add(disk.center);
+  double reach = disk.radius;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 p{corner & 1 ? bounds.high.x : bounds.low.x, corner & 2 ? bounds.high.y : bounds.low.y,
                  corner & 4 ? bounds.high.z : bounds.low.z};
@@ -52,8 +53,13 @@ RayFrame ray_frame(const Scene& scene) {
   return frame;
 }
 
-RayScene::Impl::Impl(const Scene& scene, const RayFrame& frame, int threads)
-    : arena(thread_count(threads)), scene_(scene), frame_(frame) {
+RayFrame ray_frame(const Scene& scene) {
+  if (!scene.lights.empty()) return ray_frame(scene, scene.lights.front().shape);
+  const Bounds bounds = scene.bounds();
+  return ray_frame(scene, DiskLight{.center = bounds.empty() ? Vec3(0.0) : bounds.center()});
+}
+
+RayScene::Impl::Impl(const Scene& scene, const RayFrame& frame, tbb::task_arena& threads) {
   device = rtcNewDevice(nullptr);
   if (!device)
     throw SystemError("Embree does not start: no device (error " +
@@ -70,7 +76,7 @@ RayScene::Impl::Impl(const Scene& scene, const RayFrame& frame, int threads)
     if (object.casts) rtcAttachGeometryByID(casters, geometry, static_cast<unsigned>(i));
     rtcReleaseGeometry(geometry);
   }
-  arena.execute([&] {
+  threads.execute([&] {
     rtcCommitScene(all);
     rtcCommitScene(casters);
   });
@@ -82,39 +88,15 @@ RayScene::Impl::~Impl() {
   rtcReleaseDevice(device);
 }
 
-/// Made once, on the cores of the arena.
-template <class T>
-const T& RayScene::Impl::once(OnDemand<T>& of) const {
-  std::call_once(of.once, [&] {
-    const auto start = std::chrono::steady_clock::now();
-    const auto make = [&] { of.made = std::make_unique<T>(scene_, frame_.origin, frame_.scale); };
-    arena.execute([&] { tbb::this_task_arena::isolate(make); });  // takes no work that may ask for the same
-    of.milliseconds = milliseconds_since(start);
-  });
-  return *of.made;
-}
-
-const detail::SceneEdges& RayScene::Impl::edges() const {
-  return once(edges_);
-}
-
-const detail::MergedEdges& RayScene::Impl::merged_edges() const {
-  return once(merged_edges_);
-}
-
-RayScene::RayScene(const Scene& scene, int threads) : frame_(ray_frame(scene)) {
+RayScene::RayScene(const Scene& scene, const RayFrame& frame, detail::Threads threads)
+    : frame_(frame), threads_(std::move(threads)) {
   const auto start = std::chrono::steady_clock::now();
-  impl_ = std::make_unique<Impl>(scene, frame_, threads);
+  impl_ = std::make_unique<Impl>(scene, frame_, *threads_);
   build_ms_ = milliseconds_since(start);
 }
 
-tbb::task_arena& RayScene::arena() const {
-  return impl_->arena;
-}
-
-double RayScene::edge_hierarchy_ms() const {
-  return impl_->edges_ms();
-}
+RayScene::RayScene(const Scene& scene, int threads)
+    : RayScene(scene, ray_frame(scene), detail::make_threads(threads)) {}
 
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;

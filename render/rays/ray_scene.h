@@ -10,6 +10,7 @@
 #include <span>
 
 #include "penumbra/render/scene/scene.h"
+#include "render/support/threads.h"
 
 namespace penumbra {
 
@@ -17,10 +18,13 @@ namespace penumbra {
 struct RayFrame {
   Vec3 origin{0.0};
   double scale = 1.0;
+  bool operator==(const RayFrame&) const = default;
   Vec3 to_local(const Vec3& world) const { return (world - origin) * scale; }
 };
 
-/// The frame of a scene: origin at the light, bounds of objects and light scaled into [-1, 1].
+/// The frame of objects under a light: origin at the light, bounds of objects and light scaled into [-1, 1].
+RayFrame ray_frame(const Scene& scene, const LightShape& light);
+/// The same under the scene's first light; about the objects where it has none.
 RayFrame ray_frame(const Scene& scene);
 
 /// Rays start this far (local units) from the surface, along the geometric normal towards the viewer. Float
@@ -37,26 +41,27 @@ inline float ray_end(float height) {
   return height > static_cast<float>(kLightOffset) ? 1.0f - static_cast<float>(kLightOffset) / height : 0.0f;
 }
 
+/// Embree's hierarchies over a scene's objects in one frame.
 class RayScene {
  public:
+  RayScene(const Scene& scene, const RayFrame& frame, detail::Threads threads);
+  /// In the frame of the scene's first light, on threads of its own (0: all cores).
   RayScene(const Scene& scene, int threads);
   ~RayScene();
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
   const RayFrame& frame() const { return frame_; }
-  /// The threads that the scene was made for. Work that traces rays belongs in here: arena().execute([&] { ... }).
-  tbb::task_arena& arena() const;
+  /// The threads that its callers work on.
+  tbb::task_arena& arena() const { return *threads_; }
   double build_ms() const { return build_ms_; }
-  /// What the silhouette method's hierarchies over edges of casters took (scene_edges.h, merged_edges.h), which
-  /// are made when they are first used; 0 before.
-  double edge_hierarchy_ms() const;
 
   struct Impl;
   const Impl& impl() const { return *impl_; }
 
  private:
   RayFrame frame_;
+  detail::Threads threads_;
   double build_ms_ = 0.0;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,15 +1,14 @@
 #include "render/rays/reference.h"
 
-#include <tbb/parallel_for.h>
-
 #include <atomic>
 #include <chrono>
 #include <glm/geometric.hpp>
-#include <mutex>
 
 #include "render/light/area_light.h"
 #include "render/light/disk_samples.h"
+#include "render/rays/hard.h"
 #include "render/rays/ray_scene_impl.h"
+#include "render/rays/ray_start.h"
 #include "render/support/vector_clones.h"
 
 namespace penumbra {
@@ -30,7 +29,7 @@ struct StratumTable {
   std::vector<float> columns, rows;
 };
 
-/// The light and one receiver in the local frame, float.
+/// The light in the rays' frame, float.
 struct LocalLight {
   glm::vec3 center, u, v;  ///< u and v are half axes of the disk or the rectangle
   bool disk;
@@ -42,15 +41,6 @@ LocalLight local_light(const AreaLight& light, const RayFrame& frame) {
           glm::vec3(light.axes.v * (light.half.y * frame.scale)), light.disk, glm::vec3(light.axes.w)};
 }
 
-struct Receiver {
-  glm::vec3 origin, normal;
-};
-
-Receiver local_receiver(const SurfaceBuffer& surface, std::size_t pixel, const RayFrame& frame) {
-  const Vec3 p = frame.to_local(surface.position[pixel]) + kRayOffset * surface.normal[pixel];
-  return {glm::vec3(p), glm::vec3(surface.normal[pixel])};
-}
-
 /// Sixteen directions from a receiver to disk samples, and which of them are above its horizon.
 struct Aim {
   alignas(64) float x[kLanes], y[kLanes], z[kLanes];
@@ -58,7 +48,7 @@ struct Aim {
 };
 
 PENUMBRA_VECTOR_CLONES
-void aim_at_samples(const Receiver& from, const LocalLight& light, const StratumTable& table,
+void aim_at_samples(const detail::RayStart& from, const LocalLight& light, const StratumTable& table,
                     std::uint32_t key, int first, Aim& out) {
   const float per_column = 1.0f / static_cast<float>(table.strata.columns);
   const float per_row = 1.0f / static_cast<float>(table.strata.rows);
@@ -92,7 +82,7 @@ void aim_at_samples(const Receiver& from, const LocalLight& light, const Stratum
 }
 
 /// What does not change from packet to packet of one receiver.
-void start_packet(const Receiver& x, RTCRay16& packet) {
+void start_packet(const detail::RayStart& x, RTCRay16& packet) {
   for (int k = 0; k < kLanes; ++k) {
     packet.org_x[k] = x.origin.x;
     packet.org_y[k] = x.origin.y;
@@ -105,7 +95,7 @@ void start_packet(const Receiver& x, RTCRay16& packet) {
   }
 }
 
-struct Counts {
+struct RayCounts {
   int visible = 0;    ///< unblocked and above the horizon
   int unblocked = 0;  ///< unblocked
   std::size_t rays = 0;
@@ -126,9 +116,9 @@ void trace_singly(const RayScene& rays, const int* valid, RTCIntersectContext& c
 }
 
 /// `all`: also trace what is below the horizon, for the unblocked count.
-Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight& light,
-                      const StratumTable& table, std::uint32_t key, bool all, bool packets) {
-  Counts counts;
+RayCounts trace_receiver(const RayScene& rays, const detail::RayStart& x, const LocalLight& light,
+                         const StratumTable& table, std::uint32_t key, bool all, bool packets) {
+  RayCounts counts;
   Aim aim;
   alignas(64) RTCRay16 packet;
   alignas(64) int valid[kLanes];
@@ -165,92 +155,45 @@ Counts trace_receiver(const RayScene& rays, const Receiver& x, const LocalLight&
   return counts;
 }
 
-/// Runs `body(i)` for every index of `pixels` on the scene's threads, in blocks, reporting progress.
-template <class Body>
-void for_each_pixel(const RayScene& rays, std::size_t count, const Progress& progress, const Body& body) {
-  constexpr std::size_t kBlock = 256;
-  const std::size_t blocks = (count + kBlock - 1) / kBlock;
-  std::atomic<std::size_t> done{0};
-  std::atomic<bool> stop{false};
-  std::mutex reporting;
-  rays.impl().arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-      if (stop) return;
-      for (std::size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) body(i);
-      const std::size_t finished = ++done;
-      if (progress && finished % 16 == 0 && reporting.try_lock()) {
-        if (!progress(static_cast<double>(finished) / static_cast<double>(blocks))) stop = true;
-        reporting.unlock();
-      }
-    });
-  });
-  if (stop) throw Cancelled();
+std::uint32_t key_of(const Receivers& receivers, std::uint32_t i, std::uint64_t seed) {
+  if (receivers.are_pixels()) return detail::sample_key(seed, i);
+  return detail::sample_key(seed, receivers.points[i]);
 }
 
 }  // namespace
 
-ReferenceResult trace_reference(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
-                                std::span<const std::uint32_t> pixels, const ReferenceOptions& options,
-                                bool with_unblocked, const Progress& progress) {
+ReferenceResult trace_reference(const RayScene& rays, const LightShape& shape, const Receivers& receivers,
+                                std::span<const std::uint32_t> indices, const ReferenceOptions& options,
+                                bool with_unoccluded, const Progress& progress) {
   if (options.samples < 1 || options.samples > (1 << 20))
     throw UsageError("samples must lie in 1 to 1048576, not " + std::to_string(options.samples));
-  if (scene.light.radius == 0.0) return trace_hard(scene, rays, surface, pixels);
+  if (is_point(shape)) return trace_hard(rays, shape, receivers, indices);
   const auto start = std::chrono::steady_clock::now();
   const StratumTable table(options.samples);
-  const LocalLight light = local_light(area_light(scene), rays.frame());
+  const LocalLight light = local_light(area_light(shape), rays.frame());
+  const DiskLight plane = disk_around(shape);
   ReferenceResult out;
   out.samples = table.strata.count();
-  out.visibility.assign(pixels.size(), 1.0f);
-  if (with_unblocked) out.unblocked.assign(pixels.size(), 1.0f);
+  out.visibility.assign(indices.size(), 1.0f);
+  if (with_unoccluded) out.unoccluded.assign(indices.size(), 1.0f);
   std::atomic<std::size_t> traced{0};
   const float per_sample = 1.0f / static_cast<float>(table.strata.count());
-  for_each_pixel(rays, pixels.size(), progress, [&](std::size_t i) {
-    const std::size_t pixel = pixels[i];
-    if (!surface.hit(pixel)) return;
-    if (is_behind(scene.light, surface.position[pixel])) {
+  const bool all = with_unoccluded || !receivers.has_normals();
+  detail::for_each_receiver(rays.arena(), indices.size(), progress, [&](std::size_t i) {
+    const std::uint32_t receiver = indices[i];
+    if (!receivers.is_present(receiver)) return;
+    if (is_behind(plane, receivers.points[receiver])) {
       out.visibility[i] = 0.0f;
-      if (with_unblocked) out.unblocked[i] = 0.0f;
+      if (with_unoccluded) out.unoccluded[i] = 0.0f;
       return;
     }
-    const Counts counts =
-        trace_receiver(rays, local_receiver(surface, pixel, rays.frame()), light, table,
-                       detail::sample_key(options.seed, pixels[i]), with_unblocked, options.packets);
-    out.visibility[i] = static_cast<float>(counts.visible) * per_sample;
-    if (with_unblocked) out.unblocked[i] = static_cast<float>(counts.unblocked) * per_sample;
+    const RayCounts counts =
+        trace_receiver(rays, detail::ray_start(receivers, receiver, rays.frame()), light, table,
+                       key_of(receivers, receiver, options.seed), all, options.packets);
+    const int visible = receivers.has_normals() ? counts.visible : counts.unblocked;
+    out.visibility[i] = static_cast<float>(visible) * per_sample;
+    if (with_unoccluded) out.unoccluded[i] = static_cast<float>(counts.unblocked) * per_sample;
     traced += counts.rays;
-  });
-  out.rays = traced;
-  out.milliseconds =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  return out;
-}
-
-ReferenceResult trace_hard(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
-                           std::span<const std::uint32_t> pixels) {
-  const auto start = std::chrono::steady_clock::now();
-  const glm::vec3 center(rays.frame().to_local(scene.light.center)), normal(light_frame(scene.light).w);
-  ReferenceResult out;
-  out.visibility.assign(pixels.size(), 1.0f);
-  std::atomic<std::size_t> traced{0};
-  for_each_pixel(rays, pixels.size(), {}, [&](std::size_t i) {
-    const std::size_t pixel = pixels[i];
-    if (!surface.hit(pixel)) return;
-    const Receiver x = local_receiver(surface, pixel, rays.frame());
-    const glm::vec3 d = center - x.origin;
-    if (is_behind(scene.light, surface.position[pixel]) || glm::dot(x.normal, d) <= 0.0f) {
-      out.visibility[i] = 0.0f;
-      return;
-    }
-    RTCRay ray{};
-    ray.org_x = x.origin.x, ray.org_y = x.origin.y, ray.org_z = x.origin.z;
-    ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
-    ray.tfar = ray_end(-glm::dot(d, normal));
-    ray.mask = ~0u;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(rays.impl().casters, &context, &ray);
-    out.visibility[i] = ray.tfar >= 0.0f ? 1.0f : 0.0f;
-    ++traced;
   });
   out.rays = traced;
   out.milliseconds =

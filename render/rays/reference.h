@@ -1,11 +1,11 @@
-// The reference: visibility by stratified rays to the light, disk or rectangle (Embree), and the measure for
-// everything else.
+// The reference: visibility by stratified rays to the light, and the measure for everything else.
 //
-// In: surface points. Out: V per pixel, the fraction of the light that no caster hides and that is above the
-// receiver's tangent plane. Samples are a jittered grid of strata mapped to the disk (the rectangle is a
-// square already) by the concentric map of Shirley and Chiu (1997); the jitter is a hash of seed, pixel and
-// stratum, so that the result does not depend on threads, and adding an object leaves the samples of pixels
-// that see the same face alone.
+// In: receivers, a light (disk or rectangle). Out: V of each, the fraction of the light that no caster hides
+// and that is above the receiver's tangent plane. Samples are a jittered grid of strata mapped to the disk
+// (the rectangle is a square already) by the concentric map of Shirley and Chiu (1997). The jitter is a hash
+// of seed, receiver and stratum, so that the result does not depend on threads. A pixel is hashed by its
+// place in the picture, any other receiver by its coordinates, so that its result does not depend on the
+// order of receivers either. Adding an object leaves the samples of receivers alone.
 #pragma once
 
 #include <cstdint>
@@ -13,32 +13,38 @@
 #include <vector>
 
 #include "penumbra/mesh/progress.h"
-#include "render/receivers/surface_buffer.h"
+#include "penumbra/render/light/light.h"
+#include "penumbra/render/receivers/receivers.h"
+#include "render/rays/ray_scene.h"
 
 namespace penumbra {
 
 struct ReferenceOptions {
-  int samples =
-      256;  ///< rays a pixel, 1 to 1,048,576; rounded up to ⌊√n⌋ rows of equal length (squares stay)
-  std::uint64_t seed = 1;  ///< two seeds give two independent references
-  bool packets = true;     ///< 16 rays at a time; false: one by one, to compare
+  /// Rays a receiver, 1 to 1,048,576; rounded up to ⌊√n⌋ rows of equal length (squares stay).
+  int samples = 256;
+  /// Two seeds give two independent references.
+  std::uint64_t seed = 1;
+  /// 16 rays at a time; false: one by one, to compare.
+  bool packets = true;
 };
 
 struct ReferenceResult {
-  std::vector<float> visibility;  ///< one per entry of `pixels`
-  std::vector<float> unblocked;   ///< O: the same rays without the horizon test (only where asked for)
-  int samples = 1;                ///< per pixel, after rounding up to whole strata
-  std::size_t rays = 0;  ///< traced (those below the horizon are not, unless `unblocked` is asked for)
+  /// One for each receiver that was asked for, in their order.
+  std::vector<float> visibility;
+  /// O: the same rays without the horizon; only where asked for.
+  std::vector<float> unoccluded;
+  /// Rays a receiver, after rounding up to whole strata.
+  int samples = 1;
+  /// Traced. Those below the horizon are not, unless O is asked for.
+  std::size_t rays = 0;
   double milliseconds = 0.0;
 };
 
-/// Pixels (indices into the surface buffer) that see no surface get 1. Points behind the light's plane get 0.
-ReferenceResult trace_reference(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
-                                std::span<const std::uint32_t> pixels, const ReferenceOptions& options,
-                                bool with_unblocked = false, const Progress& progress = {});
-
-/// The hard shadow: one ray to the disk's centre, with the horizon. The same conventions.
-ReferenceResult trace_hard(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
-                           std::span<const std::uint32_t> pixels);
+/// Of the receivers whose indices are given. 1 where there is no receiver, 0 behind the light's plane. A light
+/// that is a point gets trace_hard. Throws UsageError for samples outside their range, Cancelled. Cost
+/// O(receivers · samples · log faces), on all threads of `rays`.
+ReferenceResult trace_reference(const RayScene& rays, const LightShape& light, const Receivers& receivers,
+                                std::span<const std::uint32_t> indices, const ReferenceOptions& options,
+                                bool with_unoccluded = false, const Progress& progress = {});
 
 }  // namespace penumbra

@@ -112,13 +112,14 @@ bool CasterPlanes::cannot_occlude(const DiskLight& world, double slack) const {
 
 namespace {
 
-/// Every `step`-th pixel's, as CasterPlanes takes them.
-std::vector<glm::vec4> ray_origins(const RayFrame& frame, const SurfaceBuffer& surface, std::size_t step) {
-  std::vector<glm::vec4> out((surface.size() + step - 1) / step, glm::vec4(0.0f));
+/// Every `step`-th receiver's, as CasterPlanes takes them.
+std::vector<glm::vec4> ray_origins(const RayFrame& frame, const Receivers& receivers, std::size_t step) {
+  std::vector<glm::vec4> out((receivers.size() + step - 1) / step, glm::vec4(0.0f));
   tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t k) {
     const std::size_t i = k * step;
-    if (!surface.hit(i)) return;
-    const Vec3 origin = frame.to_local(surface.position[i]) + kRayOffset * surface.normal[i];
+    if (!receivers.is_present(i)) return;
+    Vec3 origin = frame.to_local(receivers.points[i]);
+    if (receivers.has_normals()) origin += kRayOffset * receivers.normals[i];
     out[k] = glm::vec4(glm::vec3(origin), 1.0f);
   });
   return out;
@@ -126,8 +127,8 @@ std::vector<glm::vec4> ray_origins(const RayFrame& frame, const SurfaceBuffer& s
 
 }  // namespace
 
-std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const RayFrame& frame,
-                                                   const SurfaceBuffer& surface) {
+std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const DiskLight& light,
+                                                   const RayFrame& frame, const Receivers& receivers) {
   constexpr std::size_t kSome = 1009;  // a prime: spread over rows and columns
   std::vector<char> out(scene.objects.size(), 0);
   std::vector<glm::vec4> some, all;  // when they are needed
@@ -135,14 +136,14 @@ std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const Ray
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!scene.objects[k].casts) continue;
     CasterPlanes planes(scene.objects[k].mesh, frame.origin, frame.scale);
-    if (!planes.cannot_occlude(scene.light)) continue;
-    if (some.empty()) some = ray_origins(frame, surface, kSome);
+    if (!planes.cannot_occlude(light)) continue;
+    if (some.empty()) some = ray_origins(frame, receivers, kSome);
     planes.set_receivers(ReceiverCloud(some));  // rules most casters out at little cost
-    if (!planes.cannot_occlude(scene.light)) continue;
-    if (all.empty()) all = ray_origins(frame, surface, 1);
+    if (!planes.cannot_occlude(light)) continue;
+    if (all.empty()) all = ray_origins(frame, receivers, 1);
     if (!cloud) cloud.emplace(all);
     planes.set_receivers(*cloud);
-    out[k] = planes.cannot_occlude(scene.light);
+    out[k] = planes.cannot_occlude(light);
   }
   return out;
 }

@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/rays/ray_scene.h"
-#include "render/receivers/surface_buffer.h"
 
 namespace penumbra::detail {
 
@@ -64,7 +64,7 @@ class CasterPlanes {
 
 /// One flag an object: casters that hide nothing from the receivers, which are moved off their surfaces as
 /// the origins of rays are. Cost O(objects), and O(pixels) where a floor, wall or room casts.
-std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const RayFrame& frame,
-                                                   const SurfaceBuffer& surface);
+std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const DiskLight& light,
+                                                   const RayFrame& frame, const Receivers& receivers);
 
 }  // namespace penumbra::detail

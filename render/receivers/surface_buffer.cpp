@@ -1,7 +1,8 @@
-#include "render/receivers/surface_buffer.h"
+#include "penumbra/render/receivers/surface_buffer.h"
 
 #include <tbb/parallel_for.h>
 
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -68,13 +69,15 @@ SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int 
   SurfaceBuffer out;
   out.width = width;
   out.height = height;
+  static std::atomic<std::uint64_t> revisions{0};
+  out.revision = ++revisions;
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   out.object.assign(n, -1);
   out.face.assign(n, 0);
   out.position.assign(n, Vec3{0.0});
   out.normal.assign(n, Vec3{0.0});
   const PixelRays pixels(scene.camera, width, height);
-  rays.impl().arena.execute([&] {
+  rays.arena().execute([&] {
     tbb::parallel_for(0, height, [&](int y) {
       alignas(64) RTCRayHit16 packet;
       alignas(64) int valid[kLanes];

@@ -1,5 +1,6 @@
 #include "render/scene/default_scene.h"
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "penumbra/mesh/error.h"
@@ -40,12 +41,12 @@ nlohmann::json to_json(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-nlohmann::json document_of(const Scene& scene, const std::string& name) {
+nlohmann::json document_of(const Scene& scene, const DiskLight& disk, const std::string& name) {
   const nlohmann::json light = {{"shape", "disk"},
-                                {"center", to_json(scene.light.center)},
-                                {"normal", to_json(scene.light.normal)},
-                                {"radius", scene.light.radius},
-                                {"radiance", to_json(scene.radiance)}};
+                                {"center", to_json(disk.center)},
+                                {"normal", to_json(disk.normal)},
+                                {"radius", disk.radius},
+                                {"radiance", to_json(scene.lights[0].radiance)}};
   const nlohmann::json camera = {{"eye", to_json(scene.camera.eye)},
                                  {"target", to_json(scene.camera.target)},
                                  {"up", to_json(scene.camera.up)},
@@ -74,12 +75,13 @@ Scene scene_around(const TriangleMesh& mesh, const std::string& name) {
   if (!(bounds.radius() > 0.0))
     throw MeshError(name + ": has no extent; a scene needs a mesh larger than a point");
   Scene scene;
-  scene.light = light_for(bounds);
-  scene.radiance = Vec3(60.0);  // a PNG without --exposure is then neither dark nor clipped
+  const DiskLight disk = light_for(bounds);
+  // With this radiance a PNG without exposure is neither dark nor clipped.
+  scene.lights.push_back({.name = {}, .shape = disk, .radiance = Vec3(60.0)});
   scene.camera = camera_for(bounds);
   scene.objects.push_back({.name = "floor", .mesh = floor_for(bounds), .albedo = Vec3(0.8), .casts = false});
   scene.objects.push_back({.name = name, .mesh = mesh, .albedo = Vec3(0.8, 0.7, 0.6), .casts = true});
-  scene.document = document_of(scene, name);
+  scene.document = document_of(scene, disk, name).dump();
   return scene;
 }
 

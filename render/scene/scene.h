@@ -1,55 +1,55 @@
-// A scene: one light, a camera, objects in world space. Read from JSON (or a bare mesh file), with
-// warnings for what was not understood.
+// A scene: lights, a camera, objects in world space. Read from JSON (or a bare mesh file), with warnings for
+// what was not understood.
 #pragma once
 
 #include <filesystem>
-#include <glm/vec2.hpp>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "penumbra/mesh/triangle_mesh.h"
+#include "penumbra/render/light/light.h"
 #include "penumbra/render/scene/camera.h"
-#include "penumbra/volumes/disk_light.h"
 
 namespace penumbra {
 
 struct SceneObject {
-  std::string name;   ///< the mesh's path as the scene file has it
-  TriangleMesh mesh;  ///< world space
-  Vec3 albedo{0.8};   ///< linear RGB
+  /// The mesh's path as the scene file has it.
+  std::string name{};
+  /// In world space.
+  TriangleMesh mesh{};
+  /// Linear RGB.
+  Vec3 albedo{0.8};
+  /// Whether it hides lights from what lies behind it.
   bool casts = true;
 };
 
-/// A rectangular light: its sides run along `tangent` and along normal × tangent.
-struct RectangleShape {
-  Vec3 tangent{
-      1.0, 0.0,
-      0.0};  ///< of any length, not parallel to the light's normal; only its part in the plane counts
-  glm::dvec2 half_extents{0.5};  ///< along tangent and across it, scene units, > 0
-};
-
 struct Scene {
-  DiskLight light;  ///< of a rectangle the disk around it: center and normal are its own
-  std::optional<RectangleShape> rectangle;  ///< the light is this, not the disk (area_light.h)
-  Vec3 radiance{10.0};  ///< linear RGB, W/(m² sr) if a scene unit is a metre; at radius 0 the intensity, W/sr
+  /// At least one in a scene that was read.
+  std::vector<Light> lights;
   Camera camera;
   std::vector<SceneObject> objects;
-  nlohmann::json document;  ///< the file as read, keys beginning with `x-` included
+  /// The file as read, JSON, keys beginning with `x-` included; empty for a scene made by hand.
+  std::string document;
 
-  Bounds bounds() const;         ///< of all objects
-  Bounds caster_bounds() const;  ///< of the objects that cast
+  /// Of all objects.
+  Bounds bounds() const;
+  /// Of the objects that cast.
+  Bounds caster_bounds() const;
+  /// The index of the light of that name or, where the text is a number, of that index. Throws UsageError
+  /// that lists the lights.
+  std::size_t light_index(std::string_view name_or_index) const;
 };
 
 struct SceneOptions {
-  bool strict = false;  ///< unknown keys are errors, not warnings
+  /// Unknown keys are errors, not warnings.
+  bool strict = false;
 };
 
 struct LoadedScene {
   Scene scene;
-  std::vector<std::string>
-      warnings;  ///< one line each: unknown keys, what meshes needed (faces left out, split vertices)
+  /// One line each: unknown keys, what meshes needed (faces left out, split vertices).
+  std::vector<std::string> warnings;
 };
 
 /// Reads a scene file (*.json) or makes a scene of a bare mesh: the mesh on a floor that does not cast, with
@@ -57,8 +57,9 @@ struct LoadedScene {
 /// SceneError or MeshError.
 LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options = {});
 
-/// The same from a parsed document; `folder` is where relative mesh paths start, `name` is used in messages.
-LoadedScene parse_scene(const nlohmann::json& document, const std::filesystem::path& folder,
-                        const std::string& name, const SceneOptions& options = {});
+/// The same from the text of a scene file; `folder` is where relative mesh paths start, `name` is used in
+/// messages.
+LoadedScene parse_scene(std::string_view text, const std::filesystem::path& folder, const std::string& name,
+                        const SceneOptions& options = {});
 
 }  // namespace penumbra

@@ -1,4 +1,4 @@
-// load_scene: from a file to a JSON document or a bare mesh.
+// load_scene and parse_scene: from a file or its text to a JSON document or a bare mesh.
 #include <algorithm>
 #include <cctype>
 #include <fstream>
@@ -6,6 +6,7 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/scene/default_scene.h"
+#include "render/scene/scene_json.h"
 #include "render/scene/scene_mesh.h"
 
 namespace penumbra {
@@ -37,7 +38,7 @@ std::string read_scene_text(const std::filesystem::path& path) {
   return text;
 }
 
-nlohmann::json parse_document(const std::string& text, const std::string& name) {
+nlohmann::json parse_document(std::string_view text, const std::string& name) {
   const auto limit_depth = [&name](int depth, nlohmann::json::parse_event_t, nlohmann::json&) {
     if (depth > kMaxDepth)
       throw SceneError(name + ": nests deeper than " + std::to_string(kMaxDepth) + " levels; flatten it");
@@ -78,8 +79,12 @@ LoadedScene load_bare_mesh(const std::filesystem::path& path) {
 
 LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options) {
   if (!is_scene_file(path)) return load_bare_mesh(path);
-  const std::string name = path.string();
-  return parse_scene(parse_document(read_scene_text(path), name), path.parent_path(), name, options);
+  return parse_scene(read_scene_text(path), path.parent_path(), path.string(), options);
+}
+
+LoadedScene parse_scene(std::string_view text, const std::filesystem::path& folder, const std::string& name,
+                        const SceneOptions& options) {
+  return detail::read_scene(parse_document(text, name), folder, name, options);
 }
 
 }  // namespace penumbra

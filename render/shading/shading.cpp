@@ -1,154 +1,74 @@
-// In the light's frame, x = (X, Y, Z) and the disk of radius ρ in z = 0, Lambert's integral over the part of
-// the rim from φ0 to φ1 is -1/2 ∫ n·(r × r') / |r|² dφ with r the rim point seen from x. With ψ the angle
-// from the direction of (X, Y) the integrand is (A + B cos ψ + D sin ψ) / (E - K cos ψ): an elementary
-// integral (`rim_part`).
 #include "render/shading/shading.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
-#include "render/light/disk_area.h"
-#include "render/light/rectangle_area.h"
-#include "render/rays/ray_scene_impl.h"
+#include "render/light/light_integrals.h"
 
 namespace penumbra {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-struct InLightFrame {
-  Vec3 x, n;
-};
+/// One light, and where its channels are written.
+struct LitChannels {
+  AreaLight light;
+  Vec3 radiance;
+  LightVisibility seen;
+  float *visibility, *region;
 
-InLightFrame to_light_frame(const AreaLight& light, const Vec3& world, const Vec3& normal) {
-  return {light.to_light(world), light.direction_to_light(normal)};
-}
+  LitChannels(const Light& of, const LightVisibility& seen_, const std::string& suffix, Image& image)
+      : light(area_light(of.shape)),
+        radiance(of.radiance),
+        seen(seen_),
+        visibility(image.add("visibility" + suffix, 1.0f).data()),
+        region(image.add("region" + suffix, -1.0f).data()) {}
 
-AreaLight area_of(const DiskLight& light) {
-  return {light_frame(light), light.center, glm::dvec2(light.radius), true};
-}
-
-/// The rim's share between two angles, from < to.
-double rim_part(const Vec3& x, const Vec3& n, double rho, double from, double to) {
-  const double away = std::hypot(x.x, x.y);
-  const double cx = away > 0.0 ? x.x / away : 1.0, cy = away > 0.0 ? x.y / away : 0.0;
-  const double radial = n.x * cx + n.y * cy, tangential = n.y * cx - n.x * cy;
-  const double a = n.z * rho, b = x.z * radial - n.z * away, d = x.z * tangential;
-  const double e = away * away + x.z * x.z + rho * rho, k = 2.0 * rho * away;
-  // e - k and e + k, without their cancellation where x is near the rim.
-  const double nearer = (away - rho) * (away - rho) + x.z * x.z,
-               farther = (away + rho) * (away + rho) + x.z * x.z;
-  const double s = std::sqrt(nearer * farther), q = k / (e + s);
-  const double turn = std::atan2(cy, cx), psi0 = from - turn, psi1 = to - turn;
-  const bool on_axis = k < 1e-12 * e;
-  const auto bend = [&](double psi) { return std::atan2(q * std::sin(psi), 1.0 - q * std::cos(psi)); };
-  const double bends = bend(psi1) - bend(psi0);
-  const double bends_by_k = on_axis ? (std::sin(psi1) - std::sin(psi0)) / (e + s) : bends / k;
-  const double lower = e - k * std::cos(psi0), rise = std::cos(psi0) - std::cos(psi1);
-  const double logarithm = on_axis ? rise / lower : std::log1p(k * rise / lower) / k;
-  const double span = psi1 - psi0;
-  const double integral =
-      a * (span + 2.0 * bends) / s + b * (q * span + 2.0 * e * bends_by_k) / s + d * logarithm;
-  return -0.5 * rho * integral;
-}
-
-/// The whole rim: what `rim_part` comes to over a full turn, without its angles.
-double whole_rim(const Vec3& x, const Vec3& n, double rho) {
-  const double away2 = x.x * x.x + x.y * x.y, away = std::sqrt(away2);
-  const double e = away2 + x.z * x.z + rho * rho, k = 2.0 * rho * away;
-  const double nearer = (away - rho) * (away - rho) + x.z * x.z,
-               farther = (away + rho) * (away + rho) + x.z * x.z;
-  const double s = std::sqrt(nearer * farther), q = k / (e + s);
-  const double radial = away > 0.0 ? (n.x * x.x + n.y * x.y) / away : n.x;
-  return -kPi * rho * (n.z * rho + q * (x.z * radial - n.z * away)) / s;
-}
-
-double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
-  if (x.z <= 0.0) return 0.0;
-  if (rho == 0.0) {
-    const double d2 = glm::dot(x, x);
-    return std::max(0.0, -glm::dot(n, x)) * x.z / (d2 * d2);
+  /// Writes pixel i; returns its irradiance.
+  Vec3 write(std::size_t i, const Vec3& point, const Vec3& normal) const {
+    const InLightFrame p = to_light_frame(light, point, normal);
+    const double above = fraction_above_horizon(light, p);
+    const double share = above > 0.0 ? std::min(1.0, static_cast<double>(seen.visibility[i]) / above) : 0.0;
+    visibility[i] = seen.visibility[i];
+    region[i] = p.x.z <= 0.0 ? 2.0f : (seen.region.empty() ? -1.0f : static_cast<float>(seen.region[i]));
+    return radiance * (irradiance_factor(light, p) * share);
   }
-  const Chord horizon = chord_of_plane(n, x, rho);
-  if (!(horizon.delta > -1.0)) return 0.0;
-  if (horizon.delta >= 1.0) return std::max(0.0, whole_rim(x, n, rho));
-  const double middle = std::atan2(horizon.normal.y, horizon.normal.x), reach = std::acos(-horizon.delta);
-  const auto rim = [&](double angle) { return Vec3{rho * std::cos(angle), rho * std::sin(angle), 0.0} - x; };
-  return std::max(0.0, rim_part(x, n, rho, middle - reach, middle + reach) +
-                           detail::edge_irradiance(rim(middle + reach), rim(middle - reach), n));
-}
-
-double horizon_in_frame(const Vec3& x, const Vec3& n, double rho) {
-  if (x.z <= 0.0) return 0.0;
-  if (rho == 0.0) return glm::dot(n, x) < 0.0 ? 1.0 : 0.0;
-  return half_plane_area(chord_of_plane(n, x, rho).delta);
-}
-
-double factor_of(const AreaLight& light, const InLightFrame& p) {
-  return light.disk ? factor_in_frame(p.x, p.n, light.half.x)
-                    : detail::rectangle_irradiance_factor(p.x, p.n, light.half);
-}
-
-double horizon_of(const AreaLight& light, const InLightFrame& p) {
-  return light.disk ? horizon_in_frame(p.x, p.n, light.half.x)
-                    : detail::rectangle_above_horizon(p.x, p.n, light.half);
-}
+};
 
 }  // namespace
 
-double disk_irradiance_factor(const DiskLight& light, const Vec3& x, const Vec3& n) {
-  return irradiance_factor(area_of(light), x, n);
-}
-
-double fraction_above_horizon(const DiskLight& light, const Vec3& x, const Vec3& n) {
-  return fraction_above_horizon(area_of(light), x, n);
-}
-
-double irradiance_factor(const AreaLight& light, const Vec3& x, const Vec3& n) {
-  return factor_of(light, to_light_frame(light, x, n));
-}
-
-double fraction_above_horizon(const AreaLight& light, const Vec3& x, const Vec3& n) {
-  return horizon_of(light, to_light_frame(light, x, n));
-}
-
-Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility, int threads,
-            std::span<const std::int8_t> regions) {
+Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
+            const detail::Threads& threads) {
   Image image;
   image.width = surface.width;
   image.height = surface.height;
   float* rgb[3] = {image.add("R").data(), image.add("G").data(), image.add("B").data()};
   float* alpha = image.add("A").data();
-  float* seen = image.add("visibility", 1.0f).data();
-  float* region = image.add("region", -1.0f).data();
   float* object = image.add("object", -1.0f).data();
   float* position[3] = {image.add("P.X").data(), image.add("P.Y").data(), image.add("P.Z").data()};
   float* normal[3] = {image.add("N.X").data(), image.add("N.Y").data(), image.add("N.Z").data()};
-  const AreaLight light = area_light(scene);
-  tbb::task_arena arena(thread_count(threads));
+  std::vector<LitChannels> channels;
+  for (std::size_t k = 0; k < lights.size(); ++k)
+    channels.emplace_back(scene.lights[k], lights[k], lights.size() > 1 ? "." + scene.lights[k].name : "",
+                          image);
   const auto shade_pixel = [&](std::size_t i) {
     if (!surface.hit(i)) return;
-    const SceneObject& what = scene.objects[static_cast<std::size_t>(surface.object[i])];
-    const InLightFrame p = to_light_frame(light, surface.position[i], surface.normal[i]);
-    const double above = horizon_of(light, p);
-    const double share = above > 0.0 ? std::min(1.0, static_cast<double>(visibility[i]) / above) : 0.0;
-    const Vec3 color = what.albedo / kPi * scene.radiance * (factor_of(light, p) * share);
+    const Vec3 albedo = scene.objects[static_cast<std::size_t>(surface.object[i])].albedo;
+    Vec3 color(0.0);
+    for (const LitChannels& light : channels)
+      color += albedo / kPi * light.write(i, surface.position[i], surface.normal[i]);
     for (int k = 0; k < 3; ++k) {
       rgb[k][i] = static_cast<float>(color[k]);
       position[k][i] = static_cast<float>(surface.position[i][k]);
       normal[k][i] = static_cast<float>(surface.normal[i][k]);
     }
     alpha[i] = 1.0f;
-    seen[i] = visibility[i];
-    region[i] = p.x.z <= 0.0 ? 2.0f : (regions.empty() ? -1.0f : static_cast<float>(regions[i]));
     object[i] = static_cast<float>(surface.object[i]);
   };
-  arena.execute([&] {
+  threads->execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 4096), [&](const auto& range) {
       for (std::size_t i = range.begin(); i < range.end(); ++i) shade_pixel(i);
     });

@@ -1,36 +1,32 @@
-// The last render step, the same for every method: visibility → RGB.
+// The last step of a picture, the same for every method: visibility → RGB.
 //
-// RGB = albedo/π · radiance · F · V/V_h for a diffuse receiver, with F the integral of cos θ cos θ' / d² over
-// the part of the light above the receiver's tangent plane (π times the form factor), V_h that part's area
-// fraction and V the visibility. Radiance leaves the light's front side only.
+// RGB = albedo/π · radiance · F · V/V_h for a diffuse receiver, summed over lights, with F the irradiance
+// factor and V_h the area fraction of the part of the light above the receiver's tangent plane
+// (light/light_integrals.h), and V the visibility. Radiance leaves a light's front side only. V_h = 0 gives 0.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "penumbra/render/image/image.h"
+#include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/scene/scene.h"
-#include "render/image/image.h"
-#include "render/light/area_light.h"
-#include "render/receivers/surface_buffer.h"
+#include "render/support/threads.h"
 
 namespace penumbra {
 
-/// F at x with unit normal n: steradians weighted by the receiver's cosine. Lambert's boundary integral of
-/// the clipped disk, in closed form (arc and chord). 0 behind the light or wholly below the horizon. At
-/// radius 0 the point light's cos θ cos θ' / d², so that `radiance` is read as an intensity.
-double disk_irradiance_factor(const DiskLight& light, const Vec3& x, const Vec3& n);
+/// What a method found out about one of the scene's lights, in their order.
+struct LightVisibility {
+  /// One a pixel.
+  std::span<const float> visibility;
+  /// One a pixel, or empty: then -1 (not certified) everywhere but behind the light's plane, where it is 2.
+  std::span<const std::int8_t> region;
+};
 
-/// V_h: the disk's area fraction above the tangent plane of x, 0 behind the light's plane. At radius 0: 1
-/// where the center is above it, else 0.
-double fraction_above_horizon(const DiskLight& light, const Vec3& x, const Vec3& n);
-
-/// F and V_h of a disk or a rectangle, whose clipped polygon has Lambert's closed form too.
-double irradiance_factor(const AreaLight& light, const Vec3& x, const Vec3& n);
-double fraction_above_horizon(const AreaLight& light, const Vec3& x, const Vec3& n);
-
-/// Every channel of the EXR interface: R G B A, visibility, region, object, P, N. Without `region` it is -1
-/// (not certified) everywhere but behind the light's plane, where it is 2.
-Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const float> visibility,
-            int threads = 0, std::span<const std::int8_t> region = {});
+/// Every channel of a picture: R G B A, visibility and region, object, P and N. With several lights there is a
+/// visibility.NAME and a region.NAME for each. Cost O(pixels · lights), on all threads.
+Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
+            const detail::Threads& threads);
 
 }  // namespace penumbra

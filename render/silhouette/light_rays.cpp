@@ -5,6 +5,7 @@
 
 #include "penumbra/volumes/predicates/predicates.h"
 #include "render/rays/ray_scene_impl.h"
+#include "render/rays/ray_start.h"
 
 namespace penumbra::detail {
 namespace {
@@ -17,15 +18,14 @@ struct LocalRay {
   glm::vec3 from, way;
 };
 
-LocalRay local_ray(const RayFrame& frame, const SurfaceBuffer& surface, std::uint32_t pixel,
-                   const Vec3& aim) {
-  const glm::vec3 from(frame.to_local(surface.position[pixel]) + kRayOffset * surface.normal[pixel]);
+LocalRay local_ray(const RayFrame& frame, const Receivers& receivers, std::uint32_t index, const Vec3& aim) {
+  const glm::vec3 from = ray_start(receivers, index, frame).origin;
   return {from, glm::vec3(frame.to_local(aim)) - from};
 }
 
-void set_lane(const RayTask& task, const RayFrame& frame, const SurfaceBuffer& surface,
-              const UnitLight& light, std::size_t k, RTCRay16& packet) {
-  LocalRay ray = local_ray(frame, surface, task.pixel, light.world_on_disk(task.aim));
+void set_lane(const RayTask& task, const RayFrame& frame, const Receivers& receivers, const UnitLight& light,
+              std::size_t k, RTCRay16& packet) {
+  LocalRay ray = local_ray(frame, receivers, task.index, light.world_on_disk(task.aim));
   if (task.step_back) {
     const glm::vec3 step = (kStepBack / glm::length(ray.way)) * ray.way;
     ray.from -= step, ray.way += step;
@@ -51,7 +51,7 @@ double receiver_offset(const RayFrame& frame) {
   return kRayOffset / frame.scale;
 }
 
-void trace_tasks(const RayScene& rays, const SurfaceBuffer& surface, const UnitLight& light,
+void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light,
                  std::span<RayTask> tasks) {
   alignas(64) RTCRay16 packet;
   alignas(64) int valid[kLanes];
@@ -62,7 +62,7 @@ void trace_tasks(const RayScene& rays, const SurfaceBuffer& surface, const UnitL
     const std::size_t count = std::min(kLanes, tasks.size() - first);
     for (std::size_t k = 0; k < kLanes; ++k) {
       valid[k] = k < count ? -1 : 0;
-      set_lane(tasks[first + std::min(k, count - 1)], rays.frame(), surface, light, k, packet);
+      set_lane(tasks[first + std::min(k, count - 1)], rays.frame(), receivers, light, k, packet);
     }
     rtcOccluded16(valid, rays.impl().casters, &context, &packet);
     // Embree sets tfar to -infinity at a hit.
@@ -70,8 +70,9 @@ void trace_tasks(const RayScene& rays, const SurfaceBuffer& surface, const UnitL
   }
 }
 
-bool is_hidden(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, std::uint32_t pixel) {
-  const LocalRay local = local_ray(rays.frame(), surface, pixel, scene.light.center);
+bool is_hidden(const Scene& scene, const RayScene& rays, const Receivers& receivers, const UnitLight& light,
+               std::uint32_t index) {
+  const LocalRay local = local_ray(rays.frame(), receivers, index, light.disk().center);
   RTCRayHit ray{};
   ray.ray.org_x = local.from.x, ray.ray.org_y = local.from.y, ray.ray.org_z = local.from.z;
   ray.ray.dir_x = local.way.x, ray.ray.dir_y = local.way.y, ray.ray.dir_z = local.way.z;
@@ -86,8 +87,9 @@ bool is_hidden(const Scene& scene, const RayScene& rays, const SurfaceBuffer& su
   const TriangleMesh& mesh = scene.objects[ray.hit.geomID].mesh;
   const IndexedTriangle& t = mesh.triangles()[ray.hit.primID];
   const auto points = mesh.positions();
-  const Vec3 x = surface.position[pixel] + receiver_offset(rays.frame()) * surface.normal[pixel];
-  return crosses(x, scene.light.center, points[t[0]], points[t[1]], points[t[2]]);
+  Vec3 x = receivers.points[index];
+  if (receivers.has_normals()) x += receiver_offset(rays.frame()) * receivers.normals[index];
+  return crosses(x, light.disk().center, points[t[0]], points[t[1]], points[t[2]]);
 }
 
 }  // namespace penumbra::detail

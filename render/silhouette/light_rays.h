@@ -5,14 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "penumbra/render/receivers/receivers.h"
 #include "render/rays/ray_scene.h"
-#include "render/receivers/surface_buffer.h"
 #include "render/silhouette/collect/light_band.h"
 
 namespace penumbra::detail {
 
 struct RayTask {
-  std::uint32_t pixel;
+  std::uint32_t index;       ///< of the receiver at which it starts
   glm::dvec2 aim;            ///< on the unit disk
   bool step_back = false;    ///< start nearer to the surface, see below
   bool free = false;         ///< the answer
@@ -27,11 +27,12 @@ double receiver_offset(const RayFrame& frame);
 /// Rays are float: where a caster's face is within a rounding of the receiver, either answer may come out.
 /// With `step_back` a ray starts 8/10 of the offset further back along its way, still above the surface it
 /// leaves and many roundings beyond the receiver, so that what is found free is free for the receiver too.
-void trace_tasks(const RayScene& rays, const SurfaceBuffer& surface, const UnitLight& light,
+void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light,
                  std::span<RayTask> tasks);
 
 /// True where a face hides the light's center from the moved receiver, beyond doubt: the first face that a
 /// ray meets, by exact predicates.
-bool is_hidden(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, std::uint32_t pixel);
+bool is_hidden(const Scene& scene, const RayScene& rays, const Receivers& receivers, const UnitLight& light,
+               std::uint32_t index);
 
 }  // namespace penumbra::detail

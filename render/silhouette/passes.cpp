@@ -13,33 +13,33 @@ constexpr std::size_t kInRegion = 4;  // receivers
 
 /// Levels that leave most of the band's edges are no help.
 Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double tolerance,
-                   std::size_t pixels) {
+                   std::size_t receivers) {
   Passes out;
   if (!merged || merged->levels().empty() || !lit.all_in_front) return out;
-  const auto size = static_cast<double>(edges.size_of_band(lit.scene.light));
+  const auto size = static_cast<double>(edges.size_of_band(lit.light.disk()));
   for (auto at = merged->levels().rbegin(); at != merged->levels().rend(); ++at) {  // coarsest first
     const MergedLevel& level = *at;
     const double in_radii = level.deviation * lit.light.per_radius();
     if (in_radii > tolerance) continue;
-    const std::size_t blocks = merged->blocks_of(level, lit.scene.light, lit.cannot_occlude).size();
+    const std::size_t blocks = merged->blocks_of(level, lit.light.disk(), lit.cannot_occlude).size();
     const double worth = level.deviation > 0.0 ? kMostMerged : kMostMergedFlat;
     if (static_cast<double>(blocks * MergedBlock::kEdges) > worth * size) break;
     out.levels.push_back(&level);
     out.deviation.push_back(in_radii);
   }
-  if (!out.levels.empty()) out.of.resize(pixels);
+  if (!out.levels.empty()) out.of.resize(receivers);
   return out;
 }
 
-std::vector<ReceiverRegion> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
+std::vector<ReceiverRegion> regions_of(const std::vector<std::uint32_t>& tiles, const Passes& passes,
                                        const ReceiverSource& source, const UnitLight& light,
                                        const RayFrame& frame) {
-  std::vector<std::vector<ReceiverRegion>> of_tiles(some.size());
-  tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t i) {
+  std::vector<std::vector<ReceiverRegion>> of_tiles(tiles.size());
+  tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
     std::vector<TileReceiver> receivers;
     std::vector<std::uint32_t> undecided;
-    source.collect(tiles.column(some[i]), tiles.row(some[i]), receivers, undecided);
-    std::erase_if(receivers, [&](const TileReceiver& r) { return passes.of[r.pixel] != passes.now; });
+    source.collect(tiles[i], receivers, undecided);
+    std::erase_if(receivers, [&](const TileReceiver& r) { return passes.of[r.index] != passes.now; });
     const auto add = [&](const auto& self, std::span<TileReceiver> part) -> void {
       if (part.size() > kInRegion) {
         const std::size_t middle = halve(part);

@@ -16,7 +16,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/progress.h"
-#include "render/rays/ray_scene_impl.h"
+#include "render/rays/ray_scene.h"
 #include "render/silhouette/tile_receivers.h"
 
 namespace penumbra::detail {
@@ -24,7 +24,7 @@ namespace penumbra::detail {
 /// A quarter of a tile: narrowing lists for fewer costs what it saves.
 inline constexpr std::size_t kFewReceivers = 16;
 
-/// Which edges each pixel's receiver looks at: those of merged faces first, coarsest levels first, and those
+/// Which edges each receiver looks at: those of merged faces first, coarsest levels first, and those
 /// of all faces last.
 struct Passes {
   std::vector<const MergedLevel*> levels;
@@ -42,35 +42,34 @@ struct Passes {
   }
 };
 
-/// By the merged edges (or none) and how far they may be moved (light radii); `pixels` of the image. None but
+/// By the merged edges (or none) and how far they may be moved (light radii); `receivers`: how many there are. None but
 /// the last where nothing is to be merged or a caster crosses the light's plane.
 Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double tolerance,
-                   std::size_t pixels);
+                   std::size_t receivers);
 
-/// The tiles of an image, and for which passes they wait.
+/// Groups of receivers, and for which passes they wait.
 class Tiles {
  public:
-  Tiles(const SurfaceBuffer& surface, const Progress& progress)
-      : columns_((surface.width + kTile - 1) / kTile),
-        waiting_(static_cast<std::size_t>(columns_ * ((surface.height + kTile - 1) / kTile)), 1u),
-        progress_(progress) {}
+  Tiles(const ReceiverGroups& groups, const Progress& progress)
+      : waiting_(groups.count(), 1u), progress_(progress) {}
 
   /// Those that wait for a pass.
-  std::vector<int> waiting_for(int pass) const {
-    std::vector<int> out;
+  std::vector<std::uint32_t> waiting_for(int pass) const {
+    std::vector<std::uint32_t> out;
     for (std::size_t i = 0; i < waiting_.size(); ++i)
-      if (waiting_[i] >> pass & 1) out.push_back(static_cast<int>(i));
+      if (waiting_[i] >> pass & 1) out.push_back(static_cast<std::uint32_t>(i));
     return out;
   }
   /// So few that it is cheaper to look for the edges that matter to them than for all.
-  bool are_few(const std::vector<int>& tiles) const { return tiles.size() <= waiting_.size() / kFewTiles; }
-  int column(int tile) const { return tile % columns_; }
-  int row(int tile) const { return tile / columns_; }
+  bool are_few(const std::vector<std::uint32_t>& tiles) const {
+    return tiles.size() <= waiting_.size() / kFewTiles;
+  }
 
-  /// Runs `body(column, row, workspace)` for some tiles of a pass, reporting progress; it returns for which
+  /// Runs `body(tile, workspace)` for some tiles of a pass, reporting progress; it returns for which
   /// passes they wait next. Throws Cancelled.
   template <class Spaces, class Body>
-  void run(int pass, const std::vector<int>& tiles, const RayScene& rays, Spaces& spaces, const Body& body) {
+  void run(int pass, const std::vector<std::uint32_t>& tiles, tbb::task_arena& threads, Spaces& spaces,
+           const Body& body) {
     std::atomic<bool> stop{false};
     std::mutex reporting;
     const auto finish = [&](std::uint32_t& waiting, std::uint32_t next) {
@@ -81,11 +80,10 @@ class Tiles {
       if (!progress_(static_cast<double>(finished) / static_cast<double>(waiting_.size()))) stop = true;
       reporting.unlock();
     };
-    rays.impl().arena.execute([&] {
+    threads.execute([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end() && !stop; ++i)
-          finish(waiting_[static_cast<std::size_t>(tiles[i])],
-                 body(column(tiles[i]), row(tiles[i]), spaces.local()));
+          finish(waiting_[tiles[i]], body(tiles[i], spaces.local()));
       });
     });
     if (stop) throw Cancelled();
@@ -93,14 +91,13 @@ class Tiles {
 
  private:
   static constexpr std::size_t kFewTiles = 32;  // one in so many
-  int columns_;
-  std::vector<std::uint32_t> waiting_;  ///< passes as bits
+  std::vector<std::uint32_t> waiting_;          ///< passes as bits
   const Progress& progress_;
   std::atomic<std::size_t> done_{0};
 };
 
 /// Of the receivers of some tiles that wait for this pass, by parts that lie close together.
-std::vector<ReceiverRegion> regions_of(const Tiles& tiles, const std::vector<int>& some, const Passes& passes,
+std::vector<ReceiverRegion> regions_of(const std::vector<std::uint32_t>& tiles, const Passes& passes,
                                        const ReceiverSource& source, const UnitLight& light,
                                        const RayFrame& frame);
 

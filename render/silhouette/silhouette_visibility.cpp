@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "penumbra/mesh/error.h"
-#include "render/rays/ray_scene_impl.h"
 #include "render/rays/reference.h"
 #include "render/receivers/occluding_casters.h"
+#include "render/silhouette/edge_hierarchies.h"
+#include "render/silhouette/silhouette_method.h"
 #include "render/silhouette/tile_evaluation.h"
 
 namespace penumbra {
@@ -29,68 +30,78 @@ SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
   return a;
 }
 
-void trace_fallback(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
-                    const SilhouetteOptions& options, const std::vector<std::uint32_t>& pixels,
+void trace_fallback(const RayScene& rays, const DiskLight& light, const Receivers& receivers,
+                    const SilhouetteOptions& options, const std::vector<std::uint32_t>& indices,
                     SilhouetteResult& out) {
   ReferenceOptions reference;
   reference.samples = options.fallback_samples;
-  const ReferenceResult r = trace_reference(scene, rays, surface, pixels, reference);
-  for (std::size_t i = 0; i < pixels.size(); ++i) out.visibility[pixels[i]] = r.visibility[i];
-  out.counts.fallback = pixels.size();
+  const ReferenceResult r = trace_reference(rays, light, receivers, indices, reference, !options.horizon);
+  const std::vector<float>& values = options.horizon ? r.visibility : r.unoccluded;
+  for (std::size_t i = 0; i < indices.size(); ++i) out.visibility[indices[i]] = values[i];
+  out.counts.fallback = indices.size();
   out.counts.rays += r.rays;
 }
 
-void require_valid(const Scene& scene, const SilhouetteOptions& options) {
-  if (!(scene.light.radius > 0.0)) throw UsageError("silhouettes need a light of radius above 0");
-  if (options.rows < 4 || options.rows > 1024)
-    throw UsageError("rows must lie in 4 to 1024, not " + std::to_string(options.rows));
-  if (!(options.tolerance >= 0.0 && options.tolerance <= 0.1))
-    throw UsageError("tolerance must lie in 0 to 0.1 light radii, not " + std::to_string(options.tolerance));
+void require_valid(const DiskLight& light, const SilhouetteOptions& options) {
+  if (!(light.radius > 0.0)) throw UsageError("silhouettes need a light of radius above 0");
+  for (const OptionSchema& option : silhouette_options()) {
+    if (option.name == "silhouette-rows") option.require_allowed(static_cast<std::uint64_t>(options.rows));
+    if (option.name == "silhouette-tolerance") option.require_allowed(options.tolerance);
+  }
+}
+
+/// Of receivers that need not lie on the scene; of pixels nothing.
+Bounds bounds_beside_scene(const Receivers& receivers) {
+  return receivers.are_pixels() ? Bounds() : bounds_of(receivers.points);
 }
 
 }  // namespace
 
-SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
+SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, EdgeHierarchies& hierarchies,
+                                       const DiskLight& disk, const Receivers& receivers,
                                        const SilhouetteOptions& options, const Progress& progress) {
-  require_valid(scene, options);
+  require_valid(disk, options);
   SilhouetteResult out;
-  out.visibility.assign(surface.size(), 1.0f);
-  out.region.assign(surface.size(), -1);
+  out.visibility.assign(receivers.size(), 1.0f);
+  out.region.assign(receivers.size(), -1);
   const bool may_merge = options.integrate && options.tolerance > 0.0;
-  const MergedEdges* merged = may_merge ? &rays.impl().merged_edges() : nullptr;
-  const SceneEdges& edges = rays.impl().edges();
+  const MergedEdges* merged = may_merge ? &hierarchies.merged(rays.arena()) : nullptr;
+  const SceneEdges& edges = hierarchies.edges(rays.arena());
   StageClock clock;
-  const UnitLight light(scene.light);
-  const auto in_arena = [&](const auto& make) { return rays.impl().arena.execute(make); };
+  const UnitLight light(disk);
+  const ReceiverGroups groups = rays.arena().execute([&] { return ReceiverGroups(receivers); });
+  const auto in_arena = [&](const auto& make) { return rays.arena().execute(make); };
   const std::vector<char> cannot_occlude =
-      in_arena([&] { return find_casters_that_cannot_occlude(scene, rays.frame(), surface); });
+      in_arena([&] { return find_casters_that_cannot_occlude(scene, disk, rays.frame(), receivers); });
   out.counts.casters_that_cannot_occlude =
       static_cast<std::size_t>(std::count(cannot_occlude.begin(), cannot_occlude.end(), char{1}));
-  const LitScene lit = in_arena([&] { return LitScene(scene, light, edges, cannot_occlude); });
+  const LitScene lit =
+      in_arena([&] { return LitScene(scene, light, edges, bounds_beside_scene(receivers), cannot_occlude); });
 
   Passes passes =
-      in_arena([&] { return make_passes(lit, edges, merged, options.tolerance, surface.size()); });
-  Tiles tiles(surface, progress);
-  const auto band_of = [&](const std::vector<int>& some) {
+      in_arena([&] { return make_passes(lit, edges, merged, options.tolerance, receivers.size()); });
+  Tiles tiles(groups, progress);
+  const ReceiverSource source(receivers, groups, rays.frame(), light, options.horizon, out);
+  const auto band_of = [&](const std::vector<std::uint32_t>& some) {
     if (passes.now < passes.last()) return make_merged_band(lit, *merged, *passes.levels[passes.now]);
     std::vector<ReceiverRegion> regions;
     if (passes.now > 0 && tiles.are_few(some))
-      regions = regions_of(tiles, some, passes, ReceiverSource(scene, rays.frame(), surface, light, out),
-                           light, rays.frame());
+      regions = regions_of(some, passes, source, light, rays.frame());
     return make_band(lit, edges, regions);
   };
   tbb::enumerable_thread_specific<Workspace> spaces;
   for (; passes.now <= passes.last(); ++passes.now) {
-    const std::vector<int> some = tiles.waiting_for(passes.now);
+    const std::vector<std::uint32_t> some = tiles.waiting_for(passes.now);
     if (some.empty()) continue;
     Band band = in_arena([&] { return band_of(some); });
     clock.finish("band");
     const auto evaluation = in_arena([&] {
-      return std::make_unique<Evaluation>(scene, rays, surface, std::move(band), light, options, passes, out);
+      return std::make_unique<Evaluation>(scene, rays, receivers, std::move(band), light, options, source,
+                                          passes, out);
     });
     clock.finish("band_tree");
-    tiles.run(passes.now, some, rays, spaces,
-              [&](int column, int row, Workspace& w) { return evaluation->tile(column, row, w); });
+    tiles.run(passes.now, some, rays.arena(), spaces,
+              [&](std::size_t group, Workspace& w) { return evaluation->tile(group, w); });
     evaluation->add_counts(out.counts);
     clock.finish("receivers");
   }
@@ -104,7 +115,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   }
   std::sort(out.open.begin(), out.open.end());
   if (!fallback.empty()) {
-    trace_fallback(scene, rays, surface, options, fallback, out);
+    trace_fallback(rays, disk, receivers, options, fallback, out);
     clock.finish("fallback");
   }
   out.stages = clock.stages();

@@ -24,14 +24,20 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/receivers/receivers.h"
 #include "render/rays/ray_scene.h"
-#include "render/receivers/surface_buffer.h"
 
 namespace penumbra {
+
+namespace detail {
+class EdgeHierarchies;
+}
 
 struct SilhouetteOptions {
   int rows = 64;  ///< scanlines where more than two depth complexities may occur, 4 to 1024; three quarters
                   ///< of them where fewer than 256 edges cross the disk
+  /// false: nothing lies below a horizon; visibility is then O.
+  bool horizon = true;
   bool integrate = true;    ///< false: certificates only; pixels without one are listed in `open`, and
                             ///< such that would have to look at more than some 8,000 edges are not tried
   double tolerance = 4e-3;  ///< how far silhouettes of merged faces may lie from the true ones, in light
@@ -61,7 +67,7 @@ struct SilhouetteCounts {
   std::size_t fallback = 0;         ///< receivers left to rays, see fallback_samples
   std::size_t bytes = 0;            ///< of the band, its tree and all threads' lists at their longest
   std::size_t hierarchy_bytes = 0;  ///< of the hierarchies over edges (scene_edges.h, merged_edges.h), made
-                                    ///< once a RayScene and in no stage
+                                    ///< once a frame and in no stage
 };
 
 struct SilhouetteResult {
@@ -77,7 +83,9 @@ struct SilhouetteResult {
 /// list (blocks of eight edges where it is long and the surface is fine) and s log s for s segments across
 /// the disk. On all cores of `rays`; the result does not depend on their number. Requires a light of radius >
 /// 0 (UsageError). Throws Cancelled.
-SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface,
-                                       const SilhouetteOptions& options = {}, const Progress& progress = {});
+SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
+                                       detail::EdgeHierarchies& hierarchies, const DiskLight& light,
+                                       const Receivers& receivers, const SilhouetteOptions& options = {},
+                                       const Progress& progress = {});
 
 }  // namespace penumbra

@@ -21,10 +21,10 @@ constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that s
 
 /// In place, member by member: a task made elsewhere and copied is read in wider pieces than it was written
 /// in, for which the processor waits; with what else was copied so, a twentieth of a simple scene's time.
-void add_task(std::vector<RayTask>& tasks, std::uint32_t pixel, const glm::dvec2& aim, bool step_back,
+void add_task(std::vector<RayTask>& tasks, std::uint32_t index, const glm::dvec2& aim, bool step_back,
               std::size_t receiver) {
   RayTask& task = tasks.emplace_back();
-  task.pixel = pixel;
+  task.index = index;
   task.aim.x = aim.x;
   task.aim.y = aim.y;
   task.step_back = step_back;
@@ -33,11 +33,11 @@ void add_task(std::vector<RayTask>& tasks, std::uint32_t pixel, const glm::dvec2
 
 }  // namespace
 
-std::uint32_t Evaluation::tile(int column, int row, Workspace& w) const {
+std::uint32_t Evaluation::tile(std::size_t group, Workspace& w) const {
   w.undecided.clear();
-  const std::size_t behind = source_.collect(column, row, w.tile, w.undecided);
+  const std::size_t behind = source_.collect(group, w.tile, w.undecided);
   if (passes_.now > 0) {
-    std::erase_if(w.tile, [&](const TileReceiver& r) { return passes_.of[r.pixel] != passes_.now; });
+    std::erase_if(w.tile, [&](const TileReceiver& r) { return passes_.of[r.index] != passes_.now; });
   } else {
     w.counts.receivers += w.tile.size();
     w.counts.behind_light += behind;
@@ -80,7 +80,7 @@ void Evaluation::leave(std::span<TileReceiver> receivers, int pass, Workspace& w
     part(receivers.first(middle), w);
     return part(receivers.subspan(middle), w);
   }
-  for (const TileReceiver& r : receivers) passes_.of[r.pixel] = static_cast<std::uint8_t>(pass);
+  for (const TileReceiver& r : receivers) passes_.of[r.index] = static_cast<std::uint8_t>(pass);
   w.later |= 1u << pass;
 }
 
@@ -175,11 +175,11 @@ void Evaluation::divide_blocks(std::size_t first, std::size_t last, std::size_t 
 void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) const {
   clip_segments(w.projected.segments, w.projected.inside, part, w.clipped);
   if (!w.clipped.closed) {
-    w.fallback.push_back(w.receivers[i].pixel);
+    w.fallback.push_back(w.receivers[i].index);
     return;
   }
   w.visible_area.compute(w.clipped, part, options_.rows, w.sliver, w.areas[i]);
-  add_task(w.tasks, w.receivers[i].pixel, w.areas[i].aims[0], false, i);
+  add_task(w.tasks, w.receivers[i].index, w.areas[i].aims[0], false, i);
   w.counts.segments += w.clipped.segments.size();
   ++w.counts.integrated;
   w.counts.slabs += w.areas[i].method == AreaMethod::kSlabs ? 1 : 0;
@@ -197,7 +197,7 @@ void Evaluation::evaluate(std::size_t first, std::size_t last, const EdgeList& l
 
 void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
   const TileReceiver& r = w.receivers[i];
-  if (!options_.integrate && list.size() > kMostToCertify) return w.open.push_back(r.pixel);
+  if (!options_.integrate && list.size() > kMostToCertify) return w.open.push_back(r.index);
   project_edges(list, r.x, r.horizon, slack_, w.projected);
   w.counts.projected_edges += list.size();
   judge(i, w);
@@ -206,7 +206,7 @@ void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) con
 void Evaluation::evaluate_blocks(std::size_t i, const std::vector<NodeMask>& list, Workspace& w) const {
   const TileReceiver& r = w.receivers[i];
   const std::size_t most = options_.integrate ? blocks_.count() : kMostToCertify / BandTree::kFanOut;
-  if (!blocks_.test_edges(tree_, list, r, most, w.projected.tested)) return w.open.push_back(r.pixel);
+  if (!blocks_.test_edges(tree_, list, r, most, w.projected.tested)) return w.open.push_back(r.index);
   project_edges(band_, w.projected.tested, r.x, r.horizon, slack_, w.projected);
   w.counts.projected_edges += BandTree::kFanOut * w.projected.tested.looked_into;
   judge(i, w);
@@ -231,19 +231,19 @@ void Evaluation::judge(std::size_t i, Workspace& w) const {
     result.complexities = 1;
     result.aims[0] = result.aims[1] = middle;
     result.method = AreaMethod::kChain;
-    add_task(w.tasks, r.pixel, middle, w.certain[i] != 0, i);
+    add_task(w.tasks, r.index, middle, w.certain[i] != 0, i);
   } else if (options_.integrate) {
     integrate(i, part, w);
   } else {
-    w.open.push_back(w.receivers[i].pixel);
+    w.open.push_back(w.receivers[i].index);
   }
 }
 
 /// No caster is between the tile and the light.
 void Evaluation::light_up(Workspace& w) const {
   for (const TileReceiver& r : w.receivers) {
-    out_.visibility[r.pixel] = static_cast<float>(half_plane_area(r.horizon.delta));
-    out_.region[r.pixel] = 0;
+    out_.visibility[r.index] = static_cast<float>(half_plane_area(r.horizon.delta));
+    out_.region[r.index] = 0;
   }
   w.counts.certified_lit += w.receivers.size();
 }
@@ -251,22 +251,22 @@ void Evaluation::light_up(Workspace& w) const {
 /// Where nothing crosses the disk the answer holds for all of it. It is certified if it is beyond doubt, and
 /// left to a plain ray if not.
 void Evaluation::certify(const RayTask& task, Workspace& w) const {
-  if (!task.free && !is_hidden(scene_, rays_, surface_, task.pixel)) {
-    add_task(w.second_tasks, task.pixel, task.aim, false, task.receiver);
+  if (!task.free && !is_hidden(scene_, rays_, receivers_, light_, task.index)) {
+    add_task(w.second_tasks, task.index, task.aim, false, task.receiver);
     return;
   }
-  out_.visibility[task.pixel] = task.free ? 1.0f : 0.0f;
-  out_.region[task.pixel] = task.free ? 0 : 2;
+  out_.visibility[task.index] = task.free ? 1.0f : 0.0f;
+  out_.region[task.index] = task.free ? 0 : 2;
   ++(task.free ? w.counts.certified_lit : w.counts.certified_umbra);
 }
 
 /// The rays of a tile, and what they make of its areas.
 void Evaluation::decide(Workspace& w) const {
   const auto settle = [&](const RayTask& task) {
-    out_.visibility[task.pixel] = task.free ? static_cast<float>(w.areas[task.receiver].area / kPi) : 0.0f;
+    out_.visibility[task.index] = task.free ? static_cast<float>(w.areas[task.receiver].area / kPi) : 0.0f;
   };
   w.second_tasks.clear();
-  trace_tasks(rays_, surface_, light_, w.tasks);
+  trace_tasks(rays_, receivers_, light_, w.tasks);
   for (const RayTask& task : w.tasks) {
     const VisibleAreaResult& f = w.areas[task.receiver];
     if (w.certain[task.receiver])
@@ -274,9 +274,9 @@ void Evaluation::decide(Workspace& w) const {
     else if (task.free || f.aims[1] == f.aims[0])
       settle(task);
     else
-      add_task(w.second_tasks, task.pixel, f.aims[1], false, task.receiver);
+      add_task(w.second_tasks, task.index, f.aims[1], false, task.receiver);
   }
-  trace_tasks(rays_, surface_, light_, w.second_tasks);
+  trace_tasks(rays_, receivers_, light_, w.second_tasks);
   for (const RayTask& task : w.second_tasks) settle(task);
   w.counts.rays += w.tasks.size();
   w.counts.second_rays += w.second_tasks.size();

@@ -39,7 +39,7 @@ struct Workspace {
   ClippedSegments clipped;
   VisibleArea visible_area;
   std::vector<RayTask> tasks, second_tasks;
-  std::vector<std::uint32_t> undecided;  ///< pixels of the tile
+  std::vector<std::uint32_t> undecided;  ///< receivers of the tile
   double sliver = 0.0;                   ///< of the receivers at hand, see VisibleArea::compute
   std::uint32_t later = 0;               ///< passes that some of the tile's receivers are left to, as bits
   std::vector<std::uint32_t> fallback, open;
@@ -53,27 +53,28 @@ struct Workspace {
   }
 };
 
-/// One frame: everything that tiles share, and the result they write to (each its own pixels).
+/// One frame: everything that tiles share, and the result they write to (each its own receivers).
 class Evaluation {
  public:
-  Evaluation(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, Band band,
-             const UnitLight& light, const SilhouetteOptions& options, Passes& passes, SilhouetteResult& out)
+  Evaluation(const Scene& scene, const RayScene& rays, const Receivers& receivers, Band band,
+             const UnitLight& light, const SilhouetteOptions& options, const ReceiverSource& source,
+             Passes& passes, SilhouetteResult& out)
       : scene_(scene),
         rays_(rays),
-        surface_(surface),
+        receivers_(receivers),
         band_(std::move(band)),
         tree_(band_),
         blocks_(band_),
         light_(light),
         options_(options),
-        source_(scene, rays.frame(), surface, light, out),
+        source_(source),
         slack_(certificate_slack(band_.extent)),
         passes_(passes),
         out_(out) {}
 
   /// Looks at the tile's receivers whose turn it is. Returns the passes that those are left to for which the
   /// band's edges are moved too far, as bits.
-  std::uint32_t tile(int column, int row, Workspace& w) const;
+  std::uint32_t tile(std::size_t group, Workspace& w) const;
   /// What is known of the band.
   void add_counts(SilhouetteCounts& out) const {
     out.faces = band_.faces;
@@ -109,13 +110,13 @@ class Evaluation {
 
   const Scene& scene_;
   const RayScene& rays_;
-  const SurfaceBuffer& surface_;
+  const Receivers& receivers_;
   const Band band_;
   const BandTree tree_;
   const EdgeBlocks blocks_;
   const UnitLight& light_;
   const SilhouetteOptions& options_;
-  const ReceiverSource source_;
+  const ReceiverSource& source_;
   const double slack_;
   Passes& passes_;
   SilhouetteResult& out_;

@@ -8,29 +8,36 @@
 
 namespace penumbra::detail {
 
-ReceiverSource::ReceiverSource(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface,
-                               const UnitLight& light, SilhouetteResult& out)
-    : scene_(scene), surface_(surface), light_(light), offset_(receiver_offset(frame)), out_(out) {}
+ReceiverSource::ReceiverSource(const Receivers& receivers, const ReceiverGroups& groups,
+                               const RayFrame& frame, const UnitLight& light, bool horizon,
+                               SilhouetteResult& out)
+    : receivers_(receivers),
+      groups_(groups),
+      light_(light),
+      offset_(receivers.has_normals() ? receiver_offset(frame) : 0.0),
+      horizon_(horizon && receivers.has_normals()),
+      out_(out) {}
 
-/// Inlined: a call would take two of a pixel's few nanoseconds.
-PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::size_t pixel,
+/// Inlined: a call would take two of a receiver's few nanoseconds.
+PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::uint32_t index,
                                                          std::vector<TileReceiver>& receivers) const {
-  if (!surface_.hit(pixel)) return Kind::kNoSurface;
-  const Vec3& normal = surface_.normal[pixel];
-  const Vec3 x = light_.point(surface_.position[pixel] + offset_ * normal);
+  if (!receivers_.is_present(index)) return Kind::kAbsent;
+  const Vec3& point = receivers_.points[index];
+  const Vec3 normal = receivers_.has_normals() ? receivers_.normals[index] : Vec3(0.0);
+  const Vec3 x = light_.point(point + offset_ * normal);
   // Where the moved point is far in front, so is the point itself; the exact predicate is not asked.
-  if (!(x.z > 2.0 * offset_ * light_.per_radius()) && is_behind(scene_.light, surface_.position[pixel])) {
-    out_.visibility[pixel] = 0.0f;
-    out_.region[pixel] = 2;
+  if (!(x.z > 2.0 * offset_ * light_.per_radius()) && is_behind(light_.disk(), point)) {
+    out_.visibility[index] = 0.0f;
+    out_.region[index] = 2;
     return Kind::kBehindLight;
   }
   if (!(x.z > 0.0)) return Kind::kUndecided;
   const Vec3 n = light_.direction(normal);
   // The center's height over the tangent plane, and how far the plane falls or rises across the disk.
   const double center = -glm::dot(n, x), fall2 = n.x * n.x + n.y * n.y;
-  const bool cuts = center * center < fall2;
-  if (!cuts && !(center > 0.0)) {
-    out_.visibility[pixel] = 0.0f;
+  const bool cuts = horizon_ && center * center < fall2;
+  if (horizon_ && !cuts && !(center > 0.0)) {
+    out_.visibility[index] = 0.0f;
     return Kind::kBelowHorizon;
   }
   // In place, member by member: a receiver made elsewhere and copied is read in wider pieces than it was
@@ -40,23 +47,19 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::size_t pixel,
   r.normal = n;
   r.horizon = cuts ? chord_of_plane(n, x, 1.0) : no_horizon();
   r.horizon_cuts = cuts;
-  r.pixel = static_cast<std::uint32_t>(pixel);
+  r.index = index;
   return Kind::kReceiver;
 }
 
-std::size_t ReceiverSource::collect(int column, int row, std::vector<TileReceiver>& receivers,
+std::size_t ReceiverSource::collect(std::size_t group, std::vector<TileReceiver>& receivers,
                                     std::vector<std::uint32_t>& undecided) const {
   receivers.clear();
   std::size_t behind = 0;
-  const int x1 = std::min((column + 1) * kTile, surface_.width);
-  const int y1 = std::min((row + 1) * kTile, surface_.height);
-  for (int y = row * kTile; y < y1; ++y)
-    for (int x = column * kTile; x < x1; ++x) {
-      const auto pixel = static_cast<std::uint32_t>(y * surface_.width + x);
-      const Kind kind = add(pixel, receivers);
-      behind += kind == Kind::kBehindLight ? 1 : 0;
-      if (kind == Kind::kUndecided) undecided.push_back(pixel);
-    }
+  groups_.for_each(group, [&](std::uint32_t index) {
+    const Kind kind = add(index, receivers);
+    behind += kind == Kind::kBehindLight ? 1 : 0;
+    if (kind == Kind::kUndecided) undecided.push_back(index);
+  });
   return behind;
 }
 

@@ -1,14 +1,15 @@
-// Silhouette method, before step 2: the receivers of a tile, and the pixels that need no looking.
+// Silhouette method, before edges are collected: the receivers of a group in the light's frame, and those that
+// need no look at edges.
 //
-// In: the surface buffer. Out: its points in the light's frame, moved off their surfaces as the origins of
-// rays are, with the chord that each one's horizon cuts off the disk.
+// In: receivers. Out: their points in the light's frame, moved off their surfaces as the starts of rays are,
+// with the chord that each one's horizon cuts off the disk.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "penumbra/render/scene/scene.h"
+#include "render/receivers/receiver_groups.h"
 #include "render/silhouette/collect/shaft.h"
 #include "render/silhouette/silhouette_visibility.h"
 
@@ -17,26 +18,27 @@ namespace penumbra::detail {
 /// Refers to its arguments.
 class ReceiverSource {
  public:
-  /// What is decided here is written to `out`, each pixel by itself.
-  ReceiverSource(const Scene& scene, const RayFrame& frame, const SurfaceBuffer& surface,
-                 const UnitLight& light, SilhouetteResult& out);
+  /// What is decided here is written to `out`, each receiver by itself. `horizon`: whether tangent planes hide
+  /// what lies below them.
+  ReceiverSource(const Receivers& receivers, const ReceiverGroups& groups, const RayFrame& frame,
+                 const UnitLight& light, bool horizon, SilhouetteResult& out);
 
-  /// Into `receivers` those of a tile that see some of the light's front above their horizon, into
-  /// `undecided` also the pixels that only the offset moves behind the light's plane; both in the order of
-  /// pixels, the first replaced and the second appended to. Returns how many pixels are behind the light,
-  /// hence in umbra.
-  std::size_t collect(int column, int row, std::vector<TileReceiver>& receivers,
+  /// Into `receivers` those of a group that see some of the light's front above their horizon, into
+  /// `undecided` also those that only the offset moves behind the light's plane; the first is replaced, the
+  /// second appended to. Returns how many receivers are behind the light, hence in umbra.
+  std::size_t collect(std::size_t group, std::vector<TileReceiver>& receivers,
                       std::vector<std::uint32_t>& undecided) const;
 
  private:
-  /// What one pixel is.
-  enum class Kind : std::uint8_t { kReceiver, kNoSurface, kBehindLight, kBelowHorizon, kUndecided };
-  Kind add(std::size_t pixel, std::vector<TileReceiver>& receivers) const;
+  /// What one receiver is.
+  enum class Kind : std::uint8_t { kReceiver, kAbsent, kBehindLight, kBelowHorizon, kUndecided };
+  Kind add(std::uint32_t index, std::vector<TileReceiver>& receivers) const;
 
-  const Scene& scene_;
-  const SurfaceBuffer& surface_;
+  const Receivers& receivers_;
+  const ReceiverGroups& groups_;
   const UnitLight& light_;
-  const double offset_;  ///< scene units
+  const double offset_;  ///< scene units; 0 for receivers without normals
+  const bool horizon_;
   SilhouetteResult& out_;
 };
 

@@ -2,8 +2,8 @@
 // mended.
 #include <gtest/gtest.h>
 
-#include "tests/mesh/mesh_samples.h"
 #include "penumbra/mesh/inspect.h"
+#include "tests/mesh/mesh_samples.h"
 
 namespace penumbra {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/mesh/mesh_samples.h"
 #include "penumbra/mesh/shapes.h"
+#include "tests/mesh/mesh_samples.h"
 
 namespace penumbra {
 namespace {

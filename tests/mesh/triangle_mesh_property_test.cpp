@@ -3,8 +3,8 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <random>
 
-#include "tests/mesh/mesh_samples.h"
 #include "penumbra/mesh/shapes.h"
+#include "tests/mesh/mesh_samples.h"
 
 namespace penumbra {
 namespace {

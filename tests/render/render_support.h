@@ -14,13 +14,13 @@
 #include <vector>
 
 #include "penumbra/mesh/shapes.h"
+#include "penumbra/render/image/error_figures.h"
+#include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/scene/scene.h"
+#include "penumbra/render/support/counts.h"
 #include "render/d_buffer/d_buffer.h"
-#include "render/image/error_figures.h"
 #include "render/light/disk_area.h"
 #include "render/rays/reference.h"
-#include "render/receivers/surface_buffer.h"
-#include "render/support/counts.h"
 
 namespace penumbra::testing {
 

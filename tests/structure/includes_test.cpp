@@ -73,7 +73,8 @@ struct Home {
 TEST(Includes, OutsideLibrariesStayWhereTheyBelong) {
   const std::vector<Home> homes = {
       {"OpenMesh/", {"mesh/"}},
-      {"CGAL/", {"volumes/predicates/", "volumes/cells/half_spaces", "volumes/cells/solid_shape", "volumes/checks/"}},
+      {"CGAL/",
+       {"volumes/predicates/", "volumes/cells/half_spaces", "volumes/cells/solid_shape", "volumes/checks/"}},
       {"GL/", {"render/gl/"}},
       {"EGL/", {"render/gl/"}},
       {"GLFW/", {"render/gl/", "apps/"}},

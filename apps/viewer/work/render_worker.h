@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "apps/viewer/work/draft.h"
+#include "penumbra/render/image/error_figures.h"
 #include "penumbra/render/renderer.h"
-#include "render/image/error_figures.h"
 
 namespace penumbra::viewer {
 

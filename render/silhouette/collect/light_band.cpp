@@ -125,8 +125,9 @@ std::vector<CutFace> cut_at_light(const LitCasters& casters, std::vector<SceneEd
 }
 
 /// Of the whole scene, receivers included.
-double extent_of(const Scene& scene, const UnitLight& light) {
-  const Bounds box = scene.bounds();
+double extent_of(const Scene& scene, const Bounds& receivers, const UnitLight& light) {
+  Bounds box = scene.bounds();
+  box.add(receivers);
   double extent = 1.0;
   for (int corner = 0; corner < 8; ++corner)
     extent = std::max(extent, largest_component(light.point({corner & 1 ? box.high.x : box.low.x,
@@ -144,20 +145,21 @@ LightFrame turned(const LightFrame& axes) {
 }  // namespace
 
 UnitLight::UnitLight(const DiskLight& light)
-    : axes_(turned(light_frame(light))),
+    : disk_(light),
+      axes_(turned(light_frame(light))),
       center_(light.center),
       across_(light.radius * axes_.u),
       up_(light.radius * axes_.v),
       per_radius_(1.0 / light.radius) {}
 
 LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const SceneEdges& edges,
-                   std::span<const char> flags)
+                   const Bounds& receivers, std::span<const char> flags)
     : scene(lit_scene),
       light(unit_light),
       cannot_occlude(flags),
       depth(kLightOffset / edges.scale() * light.per_radius()),
       boxes(scene.objects.size()),
-      extent(extent_of(scene, light)) {
+      extent(extent_of(scene, receivers, light)) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     if (!object.casts || object.mesh.empty() || (!cannot_occlude.empty() && cannot_occlude[i])) continue;
@@ -185,8 +187,8 @@ Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<con
   for (std::size_t i = 0; i < casters.size(); ++i)
     if (lit.casts(i)) casters[i].emplace(lit, i);
   std::vector<SceneEdge> edges =
-      regions.empty() ? scene_edges.band_of(lit.scene.light, lit.cannot_occlude)
-                      : scene_edges.band_for(regions, lit.scene, lit.scene.light, lit.cannot_occlude);
+      regions.empty() ? scene_edges.band_of(lit.light.disk(), lit.cannot_occlude)
+                      : scene_edges.band_for(regions, lit.scene, lit.light.disk(), lit.cannot_occlude);
   const std::vector<CutFace> cuts = cut_at_light(casters, edges);
   band.cut_edges = cuts.size();
   band.edges = LargeArray<BandEdge>(edges.size() + cuts.size());
@@ -207,7 +209,7 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
     double per_unit() const { return light.per_radius(); }
   };
   Band band = empty_band(lit);
-  const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.scene.light, lit.cannot_occlude);
+  const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.light.disk(), lit.cannot_occlude);
   band.bounds.resize(blocks.size());
   band.deviation.resize(blocks.size());
   band.lanes = LargeArray<MergedLanes>(blocks.size());

@@ -25,6 +25,7 @@ namespace penumbra::detail {
 class UnitLight {
  public:
   explicit UnitLight(const DiskLight& light);
+  const DiskLight& disk() const { return disk_; }
   Vec3 point(const Vec3& world) const { return direction(world - center_) * per_radius_; }
   /// Rotated only.
   Vec3 direction(const Vec3& world) const {
@@ -37,6 +38,7 @@ class UnitLight {
   double per_radius() const { return per_radius_; }
 
  private:
+  DiskLight disk_;
   LightFrame axes_;
   Vec3 center_, across_, up_;  ///< across and up span the disk, their length is its radius
   double per_radius_;
@@ -46,7 +48,8 @@ class UnitLight {
 struct LitScene {
   /// Without the casters whose flag in `cannot_occlude` (one an object, or none) is set; `edges` are the scene's. Cost
   /// O(vertices), a hundredth of them where neighbors in a mesh's arrays are neighbors in space.
-  LitScene(const Scene& scene, const UnitLight& light, const SceneEdges& edges,
+  /// `receivers`: bounds of those that may lie outside of the scene's.
+  LitScene(const Scene& scene, const UnitLight& light, const SceneEdges& edges, const Bounds& receivers = {},
            std::span<const char> cannot_occlude = {});
 
   const Scene& scene;

@@ -21,7 +21,6 @@
 
 namespace penumbra::detail {
 
-inline constexpr int kTile = 8;  ///< pixels a side
 inline constexpr int kShaftSides = 16;
 
 /// A receiver in the light's frame: in front of the light, and with some of it above the horizon.
@@ -29,7 +28,7 @@ struct TileReceiver {
   Vec3 x, normal;
   Chord horizon;  ///< no_horizon where all of the disk is above the tangent plane
   bool horizon_cuts = false;
-  std::uint32_t pixel = 0;
+  std::uint32_t index = 0;  ///< of the receiver
 };
 
 /// A convex region that holds the disk and all receivers: z ≤ top, and for 16 directions d around the light

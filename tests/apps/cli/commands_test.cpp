@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "render/image/image.h"
+#include "penumbra/render/image/image.h"
 #include "tests/apps/cli/program.h"
 
 namespace penumbra::test {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "tests/mesh/mesh_samples.h"
 #include "penumbra/mesh/shapes.h"
+#include "tests/mesh/mesh_samples.h"
 
 namespace penumbra {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <thread>
 
-#include "tests/mesh/mesh_samples.h"
 #include "penumbra/mesh/error.h"
+#include "tests/mesh/mesh_samples.h"
 
 namespace penumbra {
 namespace {

@@ -1,4 +1,4 @@
-#include "render/image/image.h"
+#include "penumbra/render/image/image.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

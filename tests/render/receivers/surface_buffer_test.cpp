@@ -1,4 +1,4 @@
-#include "render/receivers/surface_buffer.h"
+#include "penumbra/render/receivers/surface_buffer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,143 @@
+#include "render/d_buffer/d_buffer_method.h"
+
+#include <algorithm>
+#include <list>
+
+#include "render/d_buffer/d_buffer.h"
+#include "render/gl/context_options.h"
+#include "render/rays/point_light.h"
+#include "render/rays/ray_scene.h"
+
+namespace penumbra {
+namespace {
+
+// Memory: the D-buffers of so many lights are kept. A scene of more lights makes them anew.
+constexpr std::size_t kMostLights = 8;
+
+DBufferOptions options_of(const OptionValues& values) {
+  return {.size = static_cast<int>(integer_of(values, "dbuffer-size")),
+          .contents = value_in(d_buffer_contents(), word_of(values, "dbuffer")),
+          .entries = static_cast<int>(integer_of(values, "dbuffer-entries")),
+          .curve = value_in(visibility_curves(), word_of(values, "visibility")),
+          .conflict = value_in(conflicts(), word_of(values, "conflict")),
+          .center = value_in(center_tests(), word_of(values, "dbuffer-center")),
+          .check = value_in(entry_checks(), word_of(values, "dbuffer-check"))};
+}
+
+class DBufferMethod : public Method {
+ public:
+  explicit DBufferMethod(const Scene& objects) : scene_(objects) {}
+
+  MethodResult run(const MethodInput& input) override {
+    if (is_point(input.light)) return hard_shadow(input);
+    StageClock clock;
+    Kept& kept = kept_for(input);
+    MethodResult out;
+    clock.finish("d_buffer");
+    out.setup = clock.stages();
+    StageClock stages;
+    if (input.receivers.revision == 0 || kept.revision != input.receivers.revision)
+      kept.buffer.set_surface(input.receivers);
+    kept.revision = input.receivers.revision;
+    stages.finish("upload_surface");
+    report(input.progress, 0.0);
+    DBufferFrame frame = kept.buffer.render(require_disk(input.light, "method dbuffer"),
+                                            options_of(input.options), input.progress);
+    out.visibility = std::move(frame.visibility);
+    out.stages = stages.stages();
+    out.stages.insert(out.stages.end(), frame.stages.begin(), frame.stages.end());
+    out.counts = std::move(frame.counts);
+    out.renderer = context_->renderer();
+    if (input.keep_textures) out.textures = kept.buffer.textures();
+    return out;
+  }
+
+  void forget() override {
+    for (Kept& kept : kept_) {
+      kept.revision = 0;
+      kept.buffer.forget_light();
+    }
+  }
+
+ private:
+  /// The D-buffer that works with the rays of one light's frame, and the receivers that it has.
+  struct Kept {
+    Kept(gl::Context& context, const Scene& scene, const RayScene& rays_)
+        : rays(&rays_), frame(rays_.frame()), buffer(context, scene, rays_) {}
+
+    const RayScene* rays;
+    RayFrame frame;
+    DBuffer buffer;
+    std::uint64_t revision = 0;
+  };
+
+  Kept& kept_for(const MethodInput& input) {
+    const gl::Backend backend = gl::backend_of(word_of(input.options, "backend"));
+    if (!context_ || backend_ != backend) {
+      kept_.clear();
+      context_ = gl::make_context(backend);
+      backend_ = backend;
+    }
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+      return kept.rays == &input.rays && kept.frame == input.rays.frame();
+    });
+    if (known != kept_.end()) {
+      kept_.splice(kept_.begin(), kept_, known);
+    } else {
+      kept_.emplace_front(*context_, scene_, input.rays);
+      if (kept_.size() > kMostLights) kept_.pop_back();
+    }
+    return kept_.front();
+  }
+
+  const Scene& scene_;
+  std::unique_ptr<gl::Context> context_;
+  gl::Backend backend_{};
+  std::list<Kept> kept_;  ///< the last used first
+};
+
+std::vector<OptionSchema> d_buffer_options() {
+  const DBufferOptions usual;
+  const auto words = [](const char* name, auto names, auto value, const char* help) {
+    return OptionSchema{.name = name,
+                        .domain = WordChoice{words_of(names)},
+                        .usual = std::string(name_in(names, value)),
+                        .unit = {},
+                        .help = help};
+  };
+  return {
+      {.name = "dbuffer-size",
+       .domain = IntegerRange{16, 8192, {0}},
+       .usual = static_cast<std::uint64_t>(usual.size),
+       .unit = "texels",
+       .help = "Texels a side of the D-buffer; 0: the root of the picture's pixels"},
+      words("dbuffer", d_buffer_contents(), usual.contents,
+            "What a texel keeps: the edge that bounds the penumbra, or the 2004 paper's distances"),
+      {.name = "dbuffer-entries",
+       .domain = IntegerRange{1, 2},
+       .usual = static_cast<std::uint64_t>(usual.entries),
+       .unit = {},
+       .help = "Entries a texel keeps; two need dbuffer edge and conflict nearest"},
+      words("visibility", visibility_curves(), usual.curve,
+            "Area beyond a chord: exact (of an edge: along the boundary that it is part of), smoothstep "
+            "3t²-2t³, or sqrt √t"),
+      words("conflict", conflicts(), usual.conflict, "Which of several entries on a line of sight is kept"),
+      words("dbuffer-center", center_tests(), usual.center,
+            "How it is told whether the light's center is hidden: by a ray, or by the texel's first surface"),
+      words("dbuffer-check", entry_checks(), usual.check,
+            "Whether rays are traced where entries contradict each other; with edge, exact and ray"),
+      gl::backend_option()};
+}
+
+}  // namespace
+
+MethodInfo d_buffer_method() {
+  return {.name = "dbuffer",
+          .summary = "what the light's center sees of penumbra boundaries (OpenGL)",
+          .needs_pixels = true,
+          .needs_opengl = true,
+          .options = d_buffer_options(),
+          .make = [](const Scene& objects) { return std::make_unique<DBufferMethod>(objects); }};
+}
+
+}  // namespace penumbra

@@ -1,0 +1,11 @@
+// The D-buffer's registration.
+#pragma once
+
+#include "penumbra/render/method.h"
+
+namespace penumbra {
+
+/// What the light's center sees of penumbra boundaries (d_buffer.h).
+MethodInfo d_buffer_method();
+
+}  // namespace penumbra

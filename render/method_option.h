@@ -1,0 +1,73 @@
+// Options of methods as data: what an option is called, what it may be, what it is by default.
+//
+// A schema is the only place in which an option's range stands. The command line, the viewer, --stats, the
+// checks of the library, benchmarks and tests read it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace penumbra {
+
+/// A number without a sign, a real number, or a word.
+using OptionValue = std::variant<std::uint64_t, double, std::string>;
+/// As a person writes it: the shortest decimals that read back exactly.
+std::string to_text(const OptionValue& value);
+
+/// What an option may be.
+struct IntegerRange {
+  std::uint64_t low, high;
+  /// Also allowed, outside of the range, with a meaning of its own that the help gives.
+  std::vector<std::uint64_t> also{};
+};
+struct IntegerChoice {
+  std::vector<std::uint64_t> values;
+};
+struct RealRange {
+  double low, high;
+  /// Whether `low` itself is allowed.
+  bool low_included = true;
+  /// Words that stand for something else than a number.
+  std::vector<std::string> words{};
+};
+struct WordChoice {
+  std::vector<std::string> words;
+};
+using OptionDomain = std::variant<IntegerRange, IntegerChoice, RealRange, WordChoice>;
+
+struct OptionSchema {
+  /// Lower case with hyphens. The command line puts two hyphens before it, --stats takes it as it is.
+  std::string name;
+  OptionDomain domain;
+  OptionValue usual;
+  /// Of numbers, such as "light radii"; empty for words and plain numbers.
+  std::string unit;
+  /// One sentence: what the option decides.
+  std::string help;
+
+  /// "4 to 1024 rows", "4, 8, 12 or 16", "auto, orthographic or a number above 0".
+  std::string allowed() const;
+  /// Throws UsageError that names the option, the text and what is allowed.
+  OptionValue parse(std::string_view text) const;
+  /// Throws UsageError where the value is of another type or outside of the domain.
+  void require_allowed(const OptionValue& value) const;
+};
+bool operator==(const OptionSchema& a, const OptionSchema& b);
+
+/// Values by the options' names. What is not set has its default.
+using OptionValues = std::map<std::string, OptionValue, std::less<>>;
+
+/// All of a schema's options. Throws UsageError for a value that the schema does not allow; values of options
+/// that are not in the schema are left out.
+OptionValues completed(const std::vector<OptionSchema>& schema, const OptionValues& values);
+
+/// For methods, of completed values.
+std::uint64_t integer_of(const OptionValues& values, std::string_view name);
+double real_of(const OptionValues& values, std::string_view name);
+const std::string& word_of(const OptionValues& values, std::string_view name);
+
+}  // namespace penumbra

@@ -1,0 +1,132 @@
+#include "render/occlusion_textures/occlusion_textures_method.h"
+
+#include <limits>
+
+#include "render/gl/context_options.h"
+#include "render/occlusion_textures/occlusion_textures.h"
+#include "render/rays/point_light.h"
+#include "render/rays/ray_scene.h"
+
+namespace penumbra {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::optional<double> cop_offset_of(const OptionValues& values) {
+  const OptionValue& value = values.find("cop-offset")->second;
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (std::get<std::string>(value) == "orthographic") return kInfinity;
+  return std::nullopt;
+}
+
+OcclusionOptions options_of(const OptionValues& values) {
+  return {.slices = static_cast<int>(integer_of(values, "slices")),
+          .texture_size = static_cast<int>(integer_of(values, "texture-size")),
+          .filter = value_in(occlusion_filters(), word_of(values, "filter")),
+          .combine = value_in(occlusion_combines(), word_of(values, "combine")),
+          .kernel = value_in(occlusion_kernels(), word_of(values, "kernel")),
+          .thin_fix = value_in(thin_fixes(), word_of(values, "thin-fix")),
+          .range = value_in(slice_ranges(), word_of(values, "slice-range")),
+          .coverage = value_in(slice_coverages(), word_of(values, "coverage")),
+          .faces = value_in(slice_faces(), word_of(values, "slice-faces")),
+          .cop_offset = cop_offset_of(values)};
+}
+
+class OcclusionTexturesMethod : public Method {
+ public:
+  explicit OcclusionTexturesMethod(const Scene& objects) : scene_(objects) {}
+
+  MethodResult run(const MethodInput& input) override {
+    if (is_point(input.light)) return hard_shadow(input);
+    StageClock clock;
+    MethodResult out;
+    prepare(input);
+    clock.finish("occlusion_textures");
+    out.setup = clock.stages();
+    OcclusionFrame frame = textures_->render(area_light(input.light), input.receivers,
+                                             options_of(input.options), input.progress);
+    out.visibility = std::move(frame.visibility);
+    out.stages = std::move(frame.stages);
+    out.counts = std::move(frame.counts);
+    out.renderer = context_->renderer();
+    if (input.keep_textures) out.textures = std::move(frame.textures);
+    return out;
+  }
+
+ private:
+  void prepare(const MethodInput& input) {
+    const gl::Backend backend = gl::backend_of(word_of(input.options, "backend"));
+    if (!context_ || backend_ != backend) {
+      textures_.reset();
+      context_ = gl::make_context(backend);
+      backend_ = backend;
+    }
+    if (!textures_ || rays_ != &input.rays || frame_ != input.rays.frame())
+      textures_ = std::make_unique<OcclusionTextures>(*context_, scene_, input.rays);
+    rays_ = &input.rays;
+    frame_ = input.rays.frame();
+  }
+
+  const Scene& scene_;
+  std::unique_ptr<gl::Context> context_;
+  gl::Backend backend_{};
+  std::unique_ptr<OcclusionTextures> textures_;
+  const RayScene* rays_ = nullptr;  ///< that `textures_` was made with
+  RayFrame frame_;
+};
+
+std::vector<OptionSchema> occlusion_options() {
+  const OcclusionOptions usual;
+  const auto words = [](const char* name, auto names, auto value, const char* help) {
+    return OptionSchema{.name = name,
+                        .domain = WordChoice{words_of(names)},
+                        .usual = std::string(name_in(names, value)),
+                        .unit = {},
+                        .help = help};
+  };
+  return {
+      {.name = "slices",
+       .domain = IntegerChoice{{4, 8, 12, 16}},
+       .usual = static_cast<std::uint64_t>(usual.slices),
+       .unit = "slices",
+       .help = "Slices of the scene"},
+      {.name = "texture-size",
+       .domain = IntegerChoice{{128, 256, 512, 1024}},
+       .usual = static_cast<std::uint64_t>(usual.texture_size),
+       .unit = "texels",
+       .help = "Texels a side of each slice"},
+      words("filter", occlusion_filters(), usual.filter, "How a slice is averaged over the light"),
+      words("combine", occlusion_combines(), usual.combine, "How slices add up"),
+      words("kernel", occlusion_kernels(), usual.kernel,
+            "A disk light as one square of equal area or as strips"),
+      words("thin-fix", thin_fixes(), usual.thin_fix,
+            "Draw each slice into the next one too; auto: for open and thin objects"),
+      words("slice-range", slice_ranges(), usual.range,
+            "Depths that are sliced: of all or of casters; auto: of casters where they nearly touch a "
+            "receiver"),
+      words("coverage", slice_coverages(), usual.coverage, "Texels by their centers or by eight samples"),
+      words("slice-faces", slice_faces(), usual.faces,
+            "Which faces of closed casters are drawn: all, or what faces the light"),
+      {.name = "cop-offset",
+       .domain = RealRange{0.0, kInfinity, false, {"auto", "orthographic"}},
+       .usual = std::string("auto"),
+       .unit = "scene units",
+       .help =
+           "Distance of the center of projection behind the light; auto: as far as the frustum contains the "
+           "casters"},
+      gl::backend_option()};
+}
+
+}  // namespace
+
+MethodInfo occlusion_textures_method() {
+  return {.name = "occlusion-textures",
+          .summary = "prefiltered slices parallel to the light (OpenGL), for comparison",
+          .takes_rectangles = true,
+          .needs_pixels = true,
+          .needs_opengl = true,
+          .options = occlusion_options(),
+          .make = [](const Scene& objects) { return std::make_unique<OcclusionTexturesMethod>(objects); }};
+}
+
+}  // namespace penumbra

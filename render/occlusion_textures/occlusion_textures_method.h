@@ -1,0 +1,11 @@
+// The occlusion textures' registration.
+#pragma once
+
+#include "penumbra/render/method.h"
+
+namespace penumbra {
+
+/// The scene in prefiltered slices parallel to the light (occlusion_textures.h).
+MethodInfo occlusion_textures_method();
+
+}  // namespace penumbra

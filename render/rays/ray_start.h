@@ -1,0 +1,53 @@
+// Where rays of a receiver start, and how receivers are shared among threads.
+#pragma once
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <glm/vec3.hpp>
+#include <mutex>
+
+#include "penumbra/mesh/progress.h"
+#include "penumbra/render/receivers/receivers.h"
+#include "render/rays/ray_scene.h"
+
+namespace penumbra::detail {
+
+/// In the rays' frame, float. The normal is 0 where the receiver has none.
+struct RayStart {
+  glm::vec3 origin, normal;
+};
+
+/// On a surface the start is moved off it by kRayOffset along the normal.
+inline RayStart ray_start(const Receivers& receivers, std::size_t i, const RayFrame& frame) {
+  const Vec3 p = frame.to_local(receivers.points[i]);
+  if (!receivers.has_normals()) return {glm::vec3(p), glm::vec3(0.0f)};
+  return {glm::vec3(p + kRayOffset * receivers.normals[i]), glm::vec3(receivers.normals[i])};
+}
+
+/// Runs `body(i)` for i = 0 ... count - 1 on the threads, in blocks, and reports progress. Throws Cancelled.
+template <class Body>
+void for_each_receiver(tbb::task_arena& threads, std::size_t count, const Progress& progress,
+                       const Body& body) {
+  constexpr std::size_t kBlock = 256;
+  const std::size_t blocks = (count + kBlock - 1) / kBlock;
+  std::atomic<std::size_t> done{0};
+  std::atomic<bool> stop{false};
+  std::mutex reporting;
+  threads.execute([&] {
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+      if (stop) return;
+      for (std::size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) body(i);
+      const std::size_t finished = ++done;
+      if (progress && finished % 16 == 0 && reporting.try_lock()) {
+        if (!progress(static_cast<double>(finished) / static_cast<double>(blocks))) stop = true;
+        reporting.unlock();
+      }
+    });
+  });
+  if (stop) throw Cancelled();
+}
+
+}  // namespace penumbra::detail

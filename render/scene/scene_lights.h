@@ -1,0 +1,19 @@
+// The lights of a scene file: {"shape": "disk" | "rectangle", ...} and their names.
+#pragma once
+
+#include <vector>
+
+#include "penumbra/render/light/light.h"
+#include "render/scene/scene_node.h"
+
+namespace penumbra::detail {
+
+/// The list behind the key "lights". Of several lights those without a name are called light0, light1, ... by
+/// their place in the list. Throws SceneError: no light, a name twice, a name of other characters than
+/// letters, digits, '-' and '_', values outside their range.
+std::vector<Light> read_lights(const SceneNode& root);
+
+/// Sine of the angle between two vectors of any length; 0 where one of them is 0.
+double sine_between(const Vec3& a, const Vec3& b);
+
+}  // namespace penumbra::detail

@@ -1,0 +1,163 @@
+#include "render/silhouette/silhouette_method.h"
+
+#include <algorithm>
+#include <list>
+
+#include "penumbra/mesh/stage_clock.h"
+#include "render/rays/point_light.h"
+#include "render/rays/ray_methods.h"
+#include "render/rays/reference.h"
+#include "render/silhouette/edge_hierarchies.h"
+#include "render/silhouette/silhouette_visibility.h"
+
+namespace penumbra {
+namespace {
+
+// Memory: hierarchies in so many frames are kept. A scene of more lights makes them anew.
+constexpr std::size_t kMostFrames = 8;
+
+Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
+  return {{"faces", c.faces},
+          {"casters_that_cannot_occlude", c.casters_that_cannot_occlude},
+          {"mesh_edges", c.mesh_edges},
+          {"band_edges", c.band_edges},
+          {"cut_edges", c.cut_edges},
+          {"receivers", c.receivers},
+          {"merged_receivers", c.merged_receivers},
+          {"certified_lit", c.certified_lit},
+          {"certified_umbra", c.certified_umbra},
+          {"behind_light", c.behind_light},
+          {"tiles", c.tiles},
+          {"empty_tiles", c.empty_tiles},
+          {"listed_edges", c.listed_edges},
+          {"projected_edges", c.projected_edges},
+          {"segments", c.segments},
+          {"integrated", c.integrated},
+          {"slabs", c.slabs},
+          {"row_sweeps", c.row_sweeps},
+          {"overlapping", c.overlapping},
+          {"rays", c.rays},
+          {"second_rays", c.second_rays},
+          {"fallback", c.fallback},
+          {"bytes", c.bytes},
+          {"hierarchy_bytes", c.hierarchy_bytes},
+          {"open", open}};
+}
+
+/// What both methods share: hierarchies, kept for the frames of the last few lights.
+class BySilhouettes : public Method {
+ public:
+  explicit BySilhouettes(const Scene& objects) : scene_(objects) {}
+
+  MethodResult run(const MethodInput& input) override {
+    if (is_point(input.light)) return hard_shadow(input);
+    detail::EdgeHierarchies& hierarchies = hierarchies_for(input.rays.frame());
+    MethodResult out;
+    run_on_disk(input, require_disk(input.light, "silhouettes"), hierarchies, out);
+    out.setup = {{"edge_hierarchy", hierarchies.milliseconds()}};
+    return out;
+  }
+
+ protected:
+  virtual void run_on_disk(const MethodInput& input, const DiskLight& light,
+                           detail::EdgeHierarchies& hierarchies, MethodResult& out) const = 0;
+  const Scene& scene_;
+
+ private:
+  detail::EdgeHierarchies& hierarchies_for(const RayFrame& frame) {
+    const auto known = std::find_if(hierarchies_.begin(), hierarchies_.end(),
+                                    [&](const detail::EdgeHierarchies& h) { return h.frame() == frame; });
+    if (known != hierarchies_.end()) {
+      hierarchies_.splice(hierarchies_.begin(), hierarchies_, known);
+    } else {
+      hierarchies_.emplace_front(scene_, frame);
+      if (hierarchies_.size() > kMostFrames) hierarchies_.pop_back();
+    }
+    return hierarchies_.front();
+  }
+
+  std::list<detail::EdgeHierarchies> hierarchies_;  ///< the last used first
+};
+
+class SilhouetteMethod : public BySilhouettes {
+ public:
+  using BySilhouettes::BySilhouettes;
+
+ private:
+  void run_on_disk(const MethodInput& input, const DiskLight& light, detail::EdgeHierarchies& hierarchies,
+                   MethodResult& out) const override {
+    SilhouetteOptions options{.rows = static_cast<int>(integer_of(input.options, "silhouette-rows")),
+                              .tolerance = real_of(input.options, "silhouette-tolerance")};
+    SilhouetteResult seen = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers,
+                                                  options, input.progress);
+    if (input.with_unoccluded) {
+      options.horizon = false;
+      out.unoccluded = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers, options,
+                                             input.progress)
+                           .visibility;
+    }
+    out.visibility = std::move(seen.visibility);
+    out.region = std::move(seen.region);
+    out.stages = std::move(seen.stages);
+    out.counts = to_counts(seen.counts, seen.open.size());
+  }
+};
+
+class RaysMethod : public BySilhouettes {
+ public:
+  using BySilhouettes::BySilhouettes;
+
+ private:
+  void run_on_disk(const MethodInput& input, const DiskLight& light, detail::EdgeHierarchies& hierarchies,
+                   MethodResult& out) const override {
+    SilhouetteResult seen = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers,
+                                                  {.integrate = false}, input.progress);
+    StageClock clock;
+    const ReferenceResult traced = trace_reference(input.rays, light, input.receivers, seen.open,
+                                                   sampling_of(input.options), false, input.progress);
+    for (std::size_t i = 0; i < seen.open.size(); ++i) seen.visibility[seen.open[i]] = traced.visibility[i];
+    seen.counts.rays += traced.rays;
+    clock.finish("rays");
+    out.visibility = std::move(seen.visibility);
+    out.region = std::move(seen.region);
+    out.stages = std::move(seen.stages);
+    out.stages.push_back(clock.stages().front());
+    out.counts = to_counts(seen.counts, seen.open.size());
+  }
+};
+
+}  // namespace
+
+std::vector<OptionSchema> silhouette_options() {
+  const SilhouetteOptions usual;
+  return {
+      {.name = "silhouette-rows",
+       .domain = IntegerRange{4, 1024},
+       .usual = static_cast<std::uint64_t>(usual.rows),
+       .unit = "rows",
+       .help = "Scanlines across the disk where many edges overlap; few edges are exact without"},
+      {.name = "silhouette-tolerance",
+       .domain = RealRange{0.0, 0.1},
+       .usual = usual.tolerance,
+       .unit = "light radii",
+       .help =
+           "How far silhouettes of fine casters may lie off by taking faces for one; 0: none are merged"}};
+}
+
+MethodInfo silhouette_method() {
+  return {.name = "silhouette",
+          .summary = "exact areas between the edges that each receiver sees, without noise",
+          .certifies = true,
+          .options = silhouette_options(),
+          .make = [](const Scene& objects) { return std::make_unique<SilhouetteMethod>(objects); }};
+}
+
+MethodInfo rays_method() {
+  return {.name = "rays",
+          .summary = "stratified rays, only where nothing is certified",
+          .certifies = true,
+          .options = sampling_options(),
+          .make = [](const Scene& objects) { return std::make_unique<RaysMethod>(objects); }};
+}
+
+}  // namespace penumbra

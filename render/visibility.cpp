@@ -1,0 +1,81 @@
+#include "penumbra/render/visibility.h"
+
+#include <algorithm>
+
+#include "render/casters_impl.h"
+
+namespace penumbra {
+namespace {
+
+// Memory: rays of so many frames are kept. A scene of more lights makes them anew.
+constexpr std::size_t kMostFrames = 8;
+
+std::vector<SceneObject> objects_of(std::span<const TriangleMesh> meshes) {
+  std::vector<SceneObject> objects;
+  for (const TriangleMesh& mesh : meshes) objects.push_back({.name = {}, .mesh = mesh});
+  return objects;
+}
+
+}  // namespace
+
+Casters::Impl::Impl(std::vector<SceneObject> objects, int thread_count)
+    : threads(detail::make_threads(thread_count)) {
+  scene.objects = std::move(objects);
+}
+
+const RayScene& Casters::Impl::rays_for(const LightShape& light) {
+  const RayFrame frame = ray_frame(scene, light);
+  const auto known =
+      std::find_if(rays_.begin(), rays_.end(), [&](const RayScene& r) { return r.frame() == frame; });
+  if (known != rays_.end()) {
+    rays_.splice(rays_.begin(), rays_, known);
+  } else {
+    rays_.emplace_front(scene, frame, threads);
+    if (rays_.size() > kMostFrames) rays_.pop_back();
+  }
+  return rays_.front();
+}
+
+const RayScene& Casters::Impl::rays_near(const LightShape& light) {
+  return rays_.empty() ? rays_for(light) : rays_.front();
+}
+
+Method& Casters::Impl::method(const MethodInfo& info) {
+  auto& made = methods_[info.name];
+  if (!made) made = info.make(scene);
+  return *made;
+}
+
+void Casters::Impl::forget() {
+  for (const auto& [name, method] : methods_) method->forget();
+}
+
+Casters::Casters(std::span<const TriangleMesh> meshes, int threads) : Casters(objects_of(meshes), threads) {}
+Casters::Casters(std::vector<SceneObject> objects, int threads)
+    : impl_(std::make_unique<Impl>(std::move(objects), threads)) {}
+Casters::~Casters() = default;
+Casters::Casters(Casters&&) noexcept = default;
+Casters& Casters::operator=(Casters&&) noexcept = default;
+
+const std::vector<SceneObject>& Casters::objects() const {
+  return impl_->scene.objects;
+}
+
+MethodResult visibility(const Casters& casters, const LightShape& light, const Receivers& receivers,
+                        const VisibilityOptions& options) {
+  const MethodInfo& info = method_named(options.method);
+  require_valid(receivers);
+  require_taken(info, light, receivers);
+  const OptionValues values = completed(info.options, options.options);
+  Casters::Impl& impl = casters.impl();
+  const std::lock_guard lock(impl.mutex);
+  const RayScene& rays = impl.rays_for(light);
+  return impl.method(info).run({.rays = rays,
+                                .light = light,
+                                .receivers = receivers,
+                                .options = values,
+                                .with_unoccluded = options.with_unoccluded,
+                                .progress = options.progress});
+}
+
+}  // namespace penumbra
