@@ -110,7 +110,6 @@ const std::vector<Exemption>& exemptions() {
       {"public headers include public ones", "render/renderer.h", "render/rays/reference.h", kMembers},
       {"public headers include public ones", "render/renderer.h", "render/receivers/surface_buffer.h", kMembers},
       {"public headers include public ones", "render/renderer.h", "render/silhouette/silhouette_visibility.h", kMembers},
-      {"public headers include public ones", "render/renderer.h", "render/support/stage_clock.h", kMembers},
       {"methods do not shade", "render/occlusion_textures/occlusion_textures.cpp", "render/shading/shading.h",
        "it takes the part of the light above the horizon from there"},
       {"what is shared includes no method", "render/rays/ray_scene_impl.h", "render/silhouette/edges/scene_edges.h", kCache},
@@ -120,9 +119,6 @@ const std::vector<Exemption>& exemptions() {
       {"Embree's part of the ray scene", "render/silhouette/passes.h", "render/rays/ray_scene_impl.h", kPackets},
       {"Embree's part of the ray scene", "render/silhouette/light_rays.cpp", "render/rays/ray_scene_impl.h", kPackets},
       {"Embree's part of the ray scene", "render/silhouette/silhouette_visibility.cpp", "render/rays/ray_scene_impl.h", kPackets},
-      {"Embree's part of the ray scene", "render/d_buffer/d_buffer.cpp", "render/rays/ray_scene_impl.h", kPackets},
-      {"Embree's part of the ray scene", "render/d_buffer/center_rays.cpp", "render/rays/ray_scene_impl.h", kPackets},
-      {"Embree's part of the ray scene", "render/d_buffer/entries/facet_reach.cpp", "render/rays/ray_scene_impl.h", kPackets},
       {"no circle of folders", "render/rays/reference.h", "render/receivers/surface_buffer.h",
        "receivers and the camera's rays that find them are not apart yet"},
       {"edges are the first step", "render/silhouette/edges/point_groups.cpp", "render/silhouette/collect/light_band.h",
@@ -131,7 +127,7 @@ const std::vector<Exemption>& exemptions() {
        "lanes are filled from a shaft"},
       {"collect comes before areas", "render/silhouette/collect/shaft.h", "render/silhouette/areas/disk_part.h",
        "a shaft is bounded by chords"},
-      {"collect comes before areas", "render/silhouette/collect/merged_certificate.cpp",
+      {"collect comes before areas", "render/silhouette/collect/uncertain_edges.cpp",
        "render/silhouette/areas/projected_edges.h", "it projects edges as areas do"},
   };
   return kExemptions;
