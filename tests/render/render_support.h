@@ -17,8 +17,6 @@
 #include "penumbra/render/image/error_figures.h"
 #include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/scene/scene.h"
-#include "penumbra/render/support/counts.h"
-#include "render/d_buffer/d_buffer.h"
 #include "render/light/disk_area.h"
 #include "render/rays/reference.h"
 
@@ -158,11 +156,6 @@ inline Values at_pixels(const Values& image, const Pixels& pixels) {
   Values out;
   for (const std::uint32_t i : pixels) out.push_back(image[i]);
   return out;
-}
-
-/// Error over true penumbra; the three spans list the same pixels.
-inline ErrorFigures penumbra_error(const Values& method, const Values& r1, const Values& r2) {
-  return error_figures(method, r1, r2, true_penumbra(r1, r2, first_pixels(method.size())));
 }
 
 inline double rms_difference(std::span<const float> values, std::span<const double> truth) {

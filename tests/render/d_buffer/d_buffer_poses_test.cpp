@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "render/d_buffer/d_buffer.h"
 #include "tests/render/random_poses.h"
 
 namespace penumbra {

@@ -11,6 +11,7 @@
 #include "render/d_buffer/entries/targets.h"
 #include "render/shading/shading.h"
 #include "render/silhouette/silhouette_visibility.h"
+#include "tests/render/error_support.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {

@@ -7,6 +7,7 @@
 #include "render/d_buffer/d_buffer.h"
 #include "render/d_buffer/visibility_steps.h"
 #include "render/light/disk_area.h"
+#include "tests/render/error_support.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {

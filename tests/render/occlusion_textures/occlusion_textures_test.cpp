@@ -7,6 +7,7 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
 #include "render/shading/shading.h"
+#include "tests/render/error_support.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {

@@ -5,6 +5,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/light/disk_samples.h"
 #include "render/shading/shading.h"
+#include "tests/render/error_support.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {

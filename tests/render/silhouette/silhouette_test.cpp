@@ -5,6 +5,7 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
 #include "render/silhouette/light_rays.h"
+#include "tests/render/error_support.h"
 #include "tests/render/render_support.h"
 #include "tests/render/silhouette/face_overlap.h"
 

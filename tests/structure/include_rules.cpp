@@ -1,0 +1,225 @@
+#include "tests/structure/include_rules.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <regex>
+
+namespace penumbra::structure {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Folders of render/ that every method may use. Each other folder of render/ is a method.
+const std::string kShared = "(?:support|light|scene|receivers|rays|gl|image|shading|plan)/";
+const std::string kMethod = "render/(?!" + kShared + ")(\\w+)/";
+// What penumbra::visibility is made of.
+const std::string kVisibility = "render/(?:(?:support|light|scene|receivers|rays|silhouette)/|visibility\\.)";
+
+constexpr Verb kNever = Verb::kNeverIncludes;
+constexpr Verb kAlone = Verb::kAloneIncludes;
+
+std::regex pattern_of(const Rule& rule) {
+  return std::regex(rule.verb == kNever ? rule.who + ".* includes " + rule.what + ".*"
+                                        : "(?!" + rule.who + ").* includes " + rule.what + ".*");
+}
+
+}  // namespace
+
+// clang-format off
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> kRules = {
+      // Modules: apps → render → volumes → mesh.
+      {"mesh stands below all", "mesh/", kNever, "(volumes|render|apps|tests)/",
+       {"mesh/shapes.cpp", "volumes/classify.h"}},
+      {"volumes stand below render", "volumes/", kNever, "(render|apps|tests)/",
+       {"volumes/cells/hull.cpp", "render/rays/ray_scene.h"}},
+      {"render stands below apps", "render/", kNever, "(apps|tests)/",
+       {"render/image/png.cpp", "apps/common/picture.h"}},
+      {"programs do not need tests", "apps/", kNever, "tests/",
+       {"apps/cli/main.cpp", "tests/render/visibility_support.h"}},
+      {"checks are for programs only", "(volumes/checks|apps|tests)/", kAlone, "volumes/checks/",
+       {"volumes/convex_umbra.cpp", "penumbra/volumes/checks/validate.h"}},
+      {"programs share apps/common only", "apps/(\\w+)/", kNever, "apps/(?!\\1/|common/)",
+       {"apps/viewer/panel.cpp", "apps/cli/reports.h"}},
+      {"the oracle shares nothing with render", "tests/oracle/", kNever, "render/",
+       {"tests/oracle/oracle.cpp", "render/light/disk_area.h"}},
+
+      // Inside render: methods → what is shared.
+      {"no method includes another", kMethod, kNever, "render/(?!\\1/|" + kShared + ")\\w+/",
+       {"render/silhouette/edges/scene_edges.cpp", "render/d_buffer/entries/tiles.h"}},
+      {"methods do not shade", kMethod, kNever, "render/shading/",
+       {"render/d_buffer/d_buffer.cpp", "render/shading/shading.h"}},
+      {"what is shared includes no method", "render/" + kShared, kNever, kMethod,
+       {"render/rays/ray_scene.cpp", "render/silhouette/silhouette_visibility.h"}},
+      {"gl is for methods that draw, renderers, the viewer",
+       "(render/(gl|d_buffer|occlusion_textures)/|render/renderer|apps/viewer/|tests/)", kAlone, "render/gl/",
+       {"render/image/image.cpp", "render/gl/program.h"}},
+      {"visibility draws nothing", kVisibility, kNever, "render/(gl|d_buffer|occlusion_textures|shading|image)/",
+       {"render/visibility.cpp", "render/gl/context.h"}},
+      {"support is below all of render", "render/support/", kNever, "render/(?!support/)",
+       {"render/support/kd_order.h", "render/scene/scene.h"}},
+
+      // Steps of the silhouette method: edges → merge → collect → areas, later ones may include earlier ones.
+      {"edges are the first step", "render/silhouette/edges/", kNever, "render/silhouette/(merge|collect|areas)/",
+       {"render/silhouette/edges/scene_edges.cpp", "render/silhouette/merge/face_patches.h"}},
+      {"merge comes before collect", "render/silhouette/merge/", kNever, "render/silhouette/(collect|areas)/",
+       {"render/silhouette/merge/merged_edges.cpp", "render/silhouette/areas/rows.h"}},
+      {"collect comes before areas", "render/silhouette/collect/", kNever, "render/silhouette/areas/",
+       {"render/silhouette/collect/edge_list.cpp", "render/silhouette/areas/rows.h"}},
+
+      // Outside libraries.
+      {"OpenMesh", "(mesh|tests)/", kAlone, "<OpenMesh/",
+       {"volumes/classify.cpp", "OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh", false}},
+      {"CGAL", "(volumes/predicates/|volumes/cells/half_spaces\\.|volumes/cells/solid_shape\\.|volumes/checks/|tests/)",
+       kAlone, "<CGAL/", {"volumes/cells/convex_cell.cpp", "CGAL/Gmpq.h", false}},
+      {"Embree", "render/rays/", kAlone, "<embree\\d*/", {"render/receivers/receivers.cpp", "embree3/rtcore.h", false}},
+      {"Embree's part of the ray scene", "render/rays/", kAlone, "render/rays/ray_scene_impl\\.",
+       {"render/silhouette/passes.cpp", "render/rays/ray_scene_impl.h"}},
+      {"OpenGL", "render/gl/", kAlone, "<(GL|EGL|KHR)/", {"render/d_buffer/d_buffer.cpp", "GL/glcorearb.h", false}},
+      {"GLFW", "apps/viewer/", kAlone, "<GLFW/", {"render/gl/context_egl.cpp", "GLFW/glfw3.h", false}},
+      {"Dear ImGui", "apps/viewer/", kAlone, "<imgui", {"apps/common/options.h", "imgui.h", false}},
+      {"OpenEXR", "render/image/", kAlone, "<OpenEXR/", {"apps/common/outputs.cpp", "OpenEXR/ImfHeader.h", false}},
+      {"CLI11", "(apps|tests)/", kAlone, "<CLI/", {"render/renderer.h", "CLI/CLI.hpp", false}},
+      {"JSON", "(apps/|tests/|render/scene/\\w+\\.cpp)", kAlone, "<nlohmann/",
+       {"render/scene/scene.h", "nlohmann/json.hpp", false}},
+  };
+  return kRules;
+}
+
+// One list of what the rules above, circles and public headers still find; it should shrink. An entry that nothing needs
+// any more fails the test.
+const std::vector<Exemption>& exemptions() {
+  static const char* const kReport = "writes a report as JSON";
+  static const char* const kMembers = "options and results of methods are members of the renderer's";
+  static const char* const kCache = "the ray scene keeps the silhouette method's edges between frames";
+  static const char* const kPackets = "it traces packets of rays itself";
+  static const std::vector<Exemption> kExemptions = {
+      {"JSON", "mesh/inspect.cpp", "nlohmann/json.hpp", kReport},
+      {"JSON", "volumes/checks/repair_report.cpp", "nlohmann/json.hpp", kReport},
+      {"JSON", "render/scene/scene_node.h", "nlohmann/json.hpp", "scene_load and scene_json share it"},
+      {"JSON", "render/scene/scene.h", "nlohmann/json.hpp", "a scene keeps its document"},
+      {"JSON", "render/renderer.h", "nlohmann/json.hpp", "--stats is made by the renderer"},
+      {"JSON", "render/image/error_figures.h", "nlohmann/json.hpp", "figures are written as JSON"},
+      {"public headers include public ones", "render/renderer.h", "render/d_buffer/d_buffer.h", kMembers},
+      {"public headers include public ones", "render/renderer.h", "render/gl/context.h", kMembers},
+      {"public headers include public ones", "render/renderer.h", "render/image/image.h", kMembers},
+      {"public headers include public ones", "render/renderer.h", "render/occlusion_textures/occlusion_textures.h", kMembers},
+      {"public headers include public ones", "render/renderer.h", "render/rays/reference.h", kMembers},
+      {"public headers include public ones", "render/renderer.h", "render/receivers/surface_buffer.h", kMembers},
+      {"public headers include public ones", "render/renderer.h", "render/silhouette/silhouette_visibility.h", kMembers},
+      {"methods do not shade", "render/occlusion_textures/occlusion_textures.cpp", "render/shading/shading.h",
+       "it takes the part of the light above the horizon from there"},
+      {"what is shared includes no method", "render/rays/ray_scene_impl.h", "render/silhouette/edges/scene_edges.h", kCache},
+      {"what is shared includes no method", "render/rays/ray_scene_impl.h", "render/silhouette/merge/merged_edges.h", kCache},
+      {"Embree's part of the ray scene", "render/receivers/surface_buffer.cpp", "render/rays/ray_scene_impl.h", kPackets},
+      {"Embree's part of the ray scene", "render/shading/shading.cpp", "render/rays/ray_scene_impl.h", kPackets},
+      {"Embree's part of the ray scene", "render/silhouette/passes.h", "render/rays/ray_scene_impl.h", kPackets},
+      {"Embree's part of the ray scene", "render/silhouette/light_rays.cpp", "render/rays/ray_scene_impl.h", kPackets},
+      {"Embree's part of the ray scene", "render/silhouette/silhouette_visibility.cpp", "render/rays/ray_scene_impl.h", kPackets},
+      {"no circle of folders", "render/rays/reference.h", "render/receivers/surface_buffer.h",
+       "receivers and the camera's rays that find them are not apart yet"},
+      {"edges are the first step", "render/silhouette/edges/point_groups.cpp", "render/silhouette/collect/light_band.h",
+       "a group is tested as a shaft's box is, against the light"},
+      {"merge comes before collect", "render/silhouette/merge/merged_lanes.cpp", "render/silhouette/collect/shaft.h",
+       "lanes are filled from a shaft"},
+      {"collect comes before areas", "render/silhouette/collect/shaft.h", "render/silhouette/areas/disk_part.h",
+       "a shaft is bounded by chords"},
+      {"collect comes before areas", "render/silhouette/collect/uncertain_edges.cpp",
+       "render/silhouette/areas/projected_edges.h", "it projects edges as areas do"},
+  };
+  return kExemptions;
+}
+// clang-format on
+
+std::string text_of(const Finding& finding) {
+  return finding.file + " includes " + finding.target + " (" + finding.rule + ')';
+}
+
+std::string target_of(const Include& include) {
+  static const std::string kPrefix = "penumbra/";
+  return include.written.starts_with(kPrefix) ? include.written.substr(kPrefix.size()) : include.written;
+}
+
+Tree read_tree(const std::string& top, std::set<std::string> public_headers) {
+  static const std::regex kInclude(R"(\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
+  Tree tree{{}, std::move(public_headers), {}};
+  for (const char* module : {"mesh", "volumes", "render", "apps", "tests"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(top) / module)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp") continue;
+      const std::string file = fs::relative(entry.path(), top).generic_string();
+      tree.files.insert(file);
+      std::ifstream in(entry.path());
+      std::smatch match;
+      for (std::string line; std::getline(in, line);)
+        if (line.find('#') != std::string::npos && std::regex_match(line, match, kInclude))
+          tree.includes.push_back({file, match[2], match[1] == "\""});
+    }
+  return tree;
+}
+
+std::vector<Finding> findings_of_table(const Tree& tree) {
+  std::vector<Finding> out;
+  for (const Rule& rule : rules()) {
+    const std::regex pattern = pattern_of(rule);
+    for (const Include& include : tree.includes) {
+      const std::string target = target_of(include);
+      const bool ours = include.quoted || target != include.written;
+      const std::string what = ours ? target : '<' + target;
+      if (std::regex_match(include.file + " includes " + what, pattern))
+        out.push_back({rule.name, include.file, target});
+    }
+  }
+  return out;
+}
+
+std::vector<Finding> findings_of_public_headers(const Tree& tree) {
+  std::vector<Finding> out;
+  for (const Include& include : tree.includes) {
+    const std::string target = target_of(include);
+    const bool prefixed = target != include.written;
+    const bool is_public = tree.public_headers.contains(target);
+    const auto found = [&](const char* rule) { out.push_back({rule, include.file, target}); };
+    if ((!prefixed && !include.quoted) || target.ends_with(".glsl")) continue;
+    if (!tree.files.contains(target)) {
+      found("what is included is there, from the top");
+      continue;
+    }
+    if (is_public && !prefixed) found("public headers have the prefix");
+    if (!is_public && prefixed) found("internal headers have no prefix");
+    if (!is_public && tree.public_headers.contains(include.file)) found("public headers include public ones");
+  }
+  return out;
+}
+
+std::vector<Finding> findings_of_circles(const Tree& tree, const std::string& module) {
+  const auto folder_of = [&](const std::string& path) -> std::string {
+    if (!path.starts_with(module + '/')) return {};
+    const std::size_t start = module.size() + 1, end = path.find('/', start);
+    return end == std::string::npos ? std::string() : path.substr(start, end - start);
+  };
+  std::map<std::string, std::set<std::string>> below;
+  for (const Include& include : tree.includes) {
+    const std::string from = folder_of(include.file), to = folder_of(target_of(include));
+    if (!from.empty() && !to.empty() && from != to) below[from].insert(to);
+  }
+  const auto reaches = [&](const std::string& from, const std::string& to) {
+    std::set<std::string> seen;
+    const std::function<bool(const std::string&)> visit = [&](const std::string& at) {
+      return at == to || (seen.insert(at).second && std::ranges::any_of(below[at], visit));
+    };
+    return visit(from);
+  };
+  std::vector<Finding> out;
+  for (const Include& include : tree.includes) {
+    const std::string from = folder_of(include.file), to = folder_of(target_of(include));
+    if (!from.empty() && !to.empty() && from != to && reaches(to, from))
+      out.push_back({"no circle of folders", include.file, target_of(include)});
+  }
+  return out;
+}
+
+}  // namespace penumbra::structure
