@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "penumbra/mesh/stage_clock.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/image/error_figures.h"
 #include "render/rays/reference.h"
 #include "render/receivers/surface_buffer.h"
-#include "render/support/stage_clock.h"
 #include "tests/bench/record.h"
 
 namespace penumbra::bench {

@@ -1,10 +1,5 @@
-<<<<<<< HEAD
-// The silhouette method against rays: medians of interleaved frames, visibility alone; what is certified; and how
-// frames grow with faces and with the light.
-=======
 // The silhouette method against rays, visibility alone; what is certified; how frames grow with faces and with the light.
 #include <algorithm>
->>>>>>> 36c16fe (Benchmarks record their figures as data, one file a machine; a part for volumes)
 #include <cstdio>
 #include <string>
 

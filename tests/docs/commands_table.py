@@ -6,7 +6,7 @@ from documents import ROOT, blocks
 
 def commands_not_run():
     """The first column of the table in tests/docs/README.md."""
-    text = (ROOT / "tests/docs/README.md").read_text()
+    text = (ROOT / "tests/docs/README.md").read_text().partition("## Commands that are not run")[2]
     return set(re.findall(r"^\| `([^`]+)` \|", text, re.MULTILINE))
 
 
