@@ -42,6 +42,7 @@ std::vector<Row> rows() {
       {"occlusion-textures", textures([](OcclusionOptions&) {})},
       {"occlusion-textures, 8 slices", textures([](OcclusionOptions& o) { o.slices = 8; })},
       {"occlusion-textures, all faces", textures([](OcclusionOptions& o) { o.faces = SliceFaces::kAll; })},
+      {"rays, 256 rays", [](RenderOptions& o) { o.method = Method::kRays; }},
       {"hard", [](RenderOptions& o) { o.method = Method::kHard; }},
       {"reference, 16 rays", rays(16)},
       {"reference, 64 rays", rays(64)},

@@ -1,10 +1,5 @@
-<<<<<<< HEAD
-// The silhouette method against rays: medians of interleaved frames, visibility alone; what is certified; and how
-// frames grow with faces and with the light.
-=======
 // The silhouette method against rays, visibility alone; what is certified; how frames grow with faces and with the light.
 #include <algorithm>
->>>>>>> 36c16fe (Benchmarks record their figures as data, one file a machine; a part for volumes)
 #include <cstdio>
 #include <string>
 
@@ -117,6 +112,11 @@ void time_scene(Record& record, const std::string& name) {
   const auto each = [](std::size_t sum, std::size_t count) {
     return static_cast<double>(sum) / static_cast<double>(std::max<std::size_t>(1, count));
   };
+  const Truth truth(scene, rays, surface, 1024);
+  const ErrorFigures error = error_figures(r.visibility, truth.first, truth.second, truth.penumbra);
+  record.add(name + "/RMSE", "1", error.rmse);
+  record.add(name + "/RMSE at least", "1", error.rmse_low);
+  record.add(name + "/RMSE at most", "1", error.rmse_high);
   record.add(name + "/silhouette", "ms", times.silhouette);
   record.add(name + "/rays : silhouette", "1", paired_ratios(times.rays, times.silhouette));
   record.add(name + "/reference : silhouette", "1", paired_ratios(times.reference, times.silhouette));

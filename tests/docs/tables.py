@@ -1,0 +1,281 @@
+"""Makes the tables of docs/ from data/benchmarks/, between <!-- table: NAME --> and <!-- end -->.
+
+usage: tables.py [--check]
+
+With --check nothing is written; the exit code is 1 where a table differs. Times get one table a machine; errors and counts,
+which hardly depend on it, are those of the first machine that has them.
+"""
+import json
+import re
+import sys
+
+from documents import ROOT, documents
+
+MARK = re.compile(r"<!-- table: ([\w-]+) -->\n(.*?)<!-- end -->", re.DOTALL)
+
+
+class Part:
+    """The figures of one part of one machine's benchmarks."""
+
+    def __init__(self, machine, part):
+        self.machine, self.commit, self.date, self.figures = machine, part["commit"], part["date"], part["figures"]
+
+    def median(self, name):
+        figure = self.figures.get(name)
+        return None if figure is None else figure["median"]
+
+    def names_before(self, suffix):
+        """What comes before the suffix in the names of figures, in the order of the numbers in it."""
+        found = [name[: -len(suffix)] for name in self.figures if name.endswith(suffix)]
+        return sorted(found, key=lambda name: [(0, float(word), "") if re.fullmatch(r"[\d.]+", word) else (1, 0.0, word)
+                                               for word in re.split(r"[/ ]", name)])
+
+    def origin(self):
+        m = self.machine
+        return f"{m['processor']}, {m['cores']} cores, {m['instruction_set']}; commit {self.commit}, {self.date}."
+
+
+def parts_named(name):
+    found = []
+    for path in sorted((ROOT / "data/benchmarks").glob("*.json")):
+        record = json.loads(path.read_text())
+        if name in record["parts"]:
+            found.append(Part(record["machine"], record["parts"][name]))
+    return found
+
+
+# How numbers are shown.
+
+def number(value):
+    """Three digits at most, or all of a whole number."""
+    if value is None:
+        return ""
+    if value >= 100 or value == round(value):
+        return f"{round(value):,}"
+    return f"{value:.1f}" if value >= 10 else f"{value:.2f}"
+
+
+def error(value):
+    return "" if value is None else "0" if value == 0 else f"{value:.5f}" if value < 0.001 else f"{value:.4f}"
+
+
+def markdown(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def each_machine(name, table):
+    """One table a machine, each with its origin; nothing where no machine has the part."""
+    return "\n".join(f"{part.origin()}\n\n{table(part)}" for part in parts_named(name))
+
+
+def first_machine(name, table):
+    parts = parts_named(name)
+    return f"{parts[0].origin()}\n\n{table(parts[0])}" if parts else ""
+
+
+def scenes_of(part, suffix):
+    """Scenes by their casters, in the order of the benchmark's sizes."""
+    sizes = {"small": 0, "medium": 1, "large": 2}
+    names = {name[: -len(suffix)] for name in part.figures if name.endswith(suffix)}
+    return sorted(names, key=lambda name: (name.rpartition("-")[0] or name, sizes.get(name.rpartition("-")[2], 0)))
+
+
+# The tables. Each takes one part and returns markdown.
+
+def errors_by(columns):
+    def both(part, scene, method):
+        floor, casters = (part.median(f"{scene}/{method}/RMSE {where}") for where in ("floor", "casters"))
+        return error(floor) if not casters else f"{error(floor)} ; {error(casters)}"
+
+    def table(part):
+        rows = [[scene] + [both(part, scene, method) for method in columns.values()]
+                for scene in scenes_of(part, "/silhouette/frame")]
+        return markdown(["scene", *columns], rows)
+    return table
+
+
+ALL_ERRORS = errors_by({"`dbuffer`": "dbuffer", "`occlusion-textures`": "occlusion-textures", "`hard`": "hard",
+                        "16 rays": "reference, 16 rays", "64 rays": "reference, 64 rays", "256 rays": "reference, 256 rays"})
+DBUFFER_ERRORS = errors_by({"default": "dbuffer", "two entries": "dbuffer, two entries",
+                            "no rays asked": "dbuffer, no rays asked", "furthest": "dbuffer, furthest",
+                            "the paper's": "dbuffer, the paper's"})
+OCCLUSION_ERRORS = errors_by({"default": "occlusion-textures", "8 slices": "occlusion-textures, 8 slices",
+                              "all faces": "occlusion-textures, all faces"})
+
+
+def frames(part):
+    methods = {"`silhouette`": "silhouette", "`dbuffer`": "dbuffer", "the paper's D-buffer": "dbuffer, the paper's",
+               "`occlusion-textures`": "occlusion-textures", "`hard`": "hard", "64 rays": "reference, 64 rays",
+               "256 rays": "reference, 256 rays"}
+    rows = [[scene] + [number(part.median(f"{scene}/{method}/frame")) for method in methods.values()]
+            for scene in scenes_of(part, "/silhouette/frame")]
+    return markdown(["scene", *methods], rows)
+
+
+def silhouette_errors(part):
+    rows = [[scene, error(part.median(f"{scene}/RMSE")),
+             f"{error(part.median(f'{scene}/RMSE at least'))} to {error(part.median(f'{scene}/RMSE at most'))}",
+             f"{part.median(f'{scene}/certified of lit'):.4f}", f"{part.median(f'{scene}/certified of umbra'):.3f}"]
+            for scene in scenes_of(part, "/RMSE")]
+    return markdown(["scene", "RMSE", "95% interval", "certified of lit", "certified of umbra"], rows)
+
+
+def silhouette_times(part):
+    rows = [[scene, number(part.median(f"{scene}/silhouette")),
+             number(part.median(f"{scene}/reference : silhouette")), number(part.median(f"{scene}/rays : silhouette")),
+             number(part.median(f"{scene}/edges across the disk")), number(part.median(f"{scene}/hierarchy of edges")),
+             number(part.median(f"{scene}/hierarchy of faces"))]
+            for scene in scenes_of(part, "/reference : silhouette")]
+    return markdown(["scene", "`silhouette`, ms", "`reference` takes", "`rays` takes", "edges a receiver",
+                     "hierarchy of edges, ms", "hierarchy of faces, ms"], rows)
+
+
+def growth(part):
+    rows = [[name.partition("/")[0], name.partition("/")[2].removesuffix(" faces"),
+             number(part.median(f"{name}/visibility")), number(part.median(f"{name}/times the first"))]
+            for name in part.names_before("/times the first")]
+    return markdown(["mesh", "faces", "ms", "times the first"], rows)
+
+
+def radii(part):
+    rows = [[name.partition("radius ")[2]] + [number(part.median(f"{name}/{method}"))
+                                              for method in ("silhouette", "rays", "reference")]
+            for name in part.names_before("/silhouette")]
+    return markdown(["radius", "`silhouette`", "`rays`, 256", "`reference`, 256"], rows)
+
+
+def d_buffer(part):
+    rows = [[scene, number(part.median(f"{scene}/dbuffer")), error(part.median(f"{scene}/RMSE")),
+             number(part.median(f"{scene}/rays of equal error")), number(part.median(f"{scene}/reference")),
+             number(part.median(f"{scene}/dbuffer : reference"))]
+            for scene in scenes_of(part, "/dbuffer : reference")]
+    return markdown(["scene", "`dbuffer`, ms", "RMSE", "rays a pixel of that error", "`reference`, ms",
+                     "`dbuffer` : `reference`"], rows)
+
+
+def numbered(part, pattern):
+    """Names of figures that match, by the number in them."""
+    found = [(float(match[1]), name) for name in part.figures if (match := re.fullmatch(pattern, name))]
+    return sorted(found)
+
+
+def in_a_row(part, pattern, shown):
+    return ", ".join(f"{value:g}: {shown(part.median(name))}" for value, name in numbered(part, pattern))
+
+
+def d_buffer_growth(part):
+    rows = [["sphere, by faces", in_a_row(part, r"sphere/(\d+) faces", number)],
+            ["armadillo-medium, by texels a side", in_a_row(part, r"armadillo-medium/size (\d+)", number)],
+            ["knot1-medium, by the light's radius", in_a_row(part, r"knot1-medium/radius ([\d.]+)", number)]]
+    return markdown(["what grows", "ms"], rows)
+
+
+def prefilters(part):
+    rows = [[f"{size}²"] + [number(part.median(f"prefilter/{size}/{which}"))
+                            for which in ("mipmap", "nbuffer", "sat", "nbuffer : sat")] for size in (256, 512)]
+    return markdown(["texels", "mipmap, ms", "N-buffer, ms", "summed-area table, ms", "N-buffer : table"], rows)
+
+
+def occlusion_growth(part):
+    rows = [[f"{scene}, by radius", in_a_row(part, scene + r"/radius ([\d.]+)/times the first", number)]
+            for scene in ("cube-medium", "foliage-medium")]
+    rows.append(["foliage-medium, by slices, ms", in_a_row(part, r"foliage-medium/slices (\d+)/frame", number)])
+    return markdown(["what grows", ""], rows)
+
+
+def price(part):
+    ways = ("float", "double", "filtered", "exact")
+    rows = []
+    for name in scenes_of(part, "/filtered : double"):
+        wrong = [part.median(f"{name}/{way}/wrong") for way in ways]
+        times = [part.median(f"{name}/{way}") for way in ways]
+        rows.append([name, number(part.median(f"{name}/faces"))]
+                    + [f"{number(t)}, {number(w)} wrong" for t, w in zip(times[:3], wrong)]
+                    + [number(times[3]), number(part.median(f"{name}/filtered : double"))])
+    return markdown(["input", "faces", "float", "double", "filtered", "always exact", "filtered : double"], rows)
+
+
+def volumes(part):
+    rows = [[scene, number(part.median(f"{scene}/faces"))]
+            + [number(part.median(f"{scene}/a cell a {unit}/{what}")) for unit in ("face", "patch")
+               for what in ("cells", "triangles")]
+            + [number(part.median(f"{scene}/a cell a patch/time")), number(part.median(f"{scene}/patch : face"))]
+            for scene in sorted(scenes_of(part, "/patch : face"), key=lambda name: part.median(f"{name}/faces"))]
+    return markdown(["scene", "faces", "cells, one a face", "triangles", "cells, one a patch", "triangles", "ms",
+                     "time of patches : faces"], rows)
+
+
+def umbras(part):
+    names = sorted((name for name in part.figures if name.endswith("/umbra")), key=lambda name: part.median(name))
+    return markdown(["caster", "ms"], [[name.removesuffix("/umbra"), number(part.median(name))] for name in names])
+
+
+# name, when, figure's name, lights, needs
+METHODS = [
+    ("`silhouette`", "the default: exact areas, no noise", "silhouette", "disk", "one CPU"),
+    ("`dbuffer`", "shadow boundaries by OpenGL; the 2004 paper and our corrections", "dbuffer", "disk", "OpenGL 4.5"),
+    ("`occlusion-textures`", "many small faces; time does not depend on the light's size", "occlusion-textures",
+     "disk, rectangle", "OpenGL 4.5"),
+    ("`reference`, 256 rays", "to judge the others", "reference, 256 rays", "disk, rectangle", "one CPU"),
+    ("`rays`, 256 rays", "the same, with rays only where nothing is certified", "rays, 256 rays", "disk", "one CPU"),
+    ("`hard`", "a point light's shadow", "hard", "disk, rectangle", "one CPU"),
+]
+
+
+def methods(part, scene="armadillo-medium"):
+    rows = [[name, when, error(part.median(f"{scene}/{figure}/RMSE floor")),
+             f"{number(part.median(f'{scene}/{figure}/frame'))} ms", lights, needs]
+            for name, when, figure, lights, needs in METHODS]
+    return markdown(["method", "when", "error", "time", "lights", "needs"], rows)
+
+
+TABLES = {
+    "methods": lambda: first_machine("accuracy", methods),
+    "accuracy": lambda: first_machine("accuracy", ALL_ERRORS),
+    "dbuffer-error": lambda: first_machine("accuracy", DBUFFER_ERRORS),
+    "occlusion-error": lambda: first_machine("accuracy", OCCLUSION_ERRORS),
+    "silhouette-error": lambda: first_machine("silhouette", silhouette_errors),
+    "frames": lambda: each_machine("accuracy", frames),
+    "silhouette-time": lambda: each_machine("silhouette", silhouette_times),
+    "growth": lambda: each_machine("growth", growth),
+    "radii": lambda: each_machine("growth", radii),
+    "dbuffer": lambda: each_machine("dbuffer", d_buffer),
+    "dbuffer-growth": lambda: each_machine("dbuffer", d_buffer_growth),
+    "prefilters": lambda: each_machine("occlusion", prefilters),
+    "occlusion-growth": lambda: each_machine("occlusion", occlusion_growth),
+    "price": lambda: each_machine("price", price),
+    "volumes": lambda: first_machine("volumes", volumes),
+    "umbra": lambda: each_machine("volumes", umbras),
+}
+
+
+def with_tables(text, used):
+    def replaced(match):
+        name = match[1]
+        used.add(name)
+        if name not in TABLES:
+            sys.exit(f"no table {name}; there are {', '.join(TABLES)}")
+        return f"<!-- table: {name} -->\n{TABLES[name]()}<!-- end -->"
+    return MARK.sub(replaced, text)
+
+
+def main():
+    check, used, differing = "--check" in sys.argv[1:], set(), []
+    for document in documents():
+        path = ROOT / document
+        text = path.read_text()
+        made = with_tables(text, used)
+        if made == text:
+            continue
+        differing.append(str(document))
+        if not check:
+            path.write_text(made)
+    if unused := set(TABLES) - used:
+        sys.exit(f"no document has the tables {', '.join(sorted(unused))}")
+    print(("differs: " if check else "written: ") + (", ".join(differing) or "nothing"))
+    return 1 if check and differing else 0
+
+
+sys.exit(main())
