@@ -3,31 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 namespace penumbra {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json to_json_array(const Vec3& p) {
-  return {p.x, p.y, p.z};
-}
-
-Json to_json_object(const BuildReport& report) {
-  return {{"welded_vertices", report.welded_vertices},
-          {"unused_vertices", report.unused_vertices},
-          {"split_vertices", report.split_vertices},
-          {"degenerate", report.degenerate},
-          {"zero_area", report.zero_area},
-          {"duplicates", report.duplicates},
-          {"non_manifold_edges", report.non_manifold_edges},
-          {"non_manifold_vertices", report.non_manifold_vertices},
-          {"misoriented_edges", report.misoriented_edges},
-          {"flipped_components", report.flipped_components},
-          {"flipped_faces", report.flipped_faces}};
-}
 
 std::string number(double value) {
   char text[32];
@@ -118,25 +97,6 @@ std::string to_text(const MeshFindings& f) {
   text += "area          " + number(f.surface_area) + "\n";
   text += "volume        " + number(f.signed_volume) + (f.closed ? "\n" : " (closed components only)\n");
   return text + findings_of_build(f.build);
-}
-
-std::string to_json(const MeshFindings& f) {
-  const Json bounds = f.bounds.empty() ? Json(nullptr)
-                                       : Json{{"low", to_json_array(f.bounds.low)},  //
-                                              {"high", to_json_array(f.bounds.high)}};
-  const Json json = {{"vertices", f.vertices},
-                     {"edges", f.edges},
-                     {"faces", f.faces},
-                     {"components", f.components},
-                     {"closed_components", f.closed_components},
-                     {"boundary_edges", f.boundary_edges},
-                     {"boundary_vertices", f.boundary_vertices},
-                     {"build", to_json_object(f.build)},
-                     {"closed", f.closed},
-                     {"bounds", bounds},
-                     {"signed_volume", f.signed_volume},
-                     {"surface_area", f.surface_area}};
-  return json.dump(2);
 }
 
 }  // namespace penumbra

@@ -1,12 +1,13 @@
 #include "penumbra/volumes/shadow_mesh.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <ostream>
 
+#include "mesh/io/formats.h"
+#include "mesh/io/little_endian.h"
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
 
@@ -14,21 +15,7 @@ namespace penumbra {
 
 namespace {
 
-/// Collects bytes, least significant first.
-class LittleEndianBuffer {
- public:
-  template <class T>
-  void put(T value) {
-    char bytes[sizeof(T)];
-    std::memcpy(bytes, &value, sizeof(T));
-    if constexpr (std::endian::native == std::endian::big) std::reverse(bytes, bytes + sizeof(T));
-    bytes_.append(bytes, sizeof(T));
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
+using detail::append_little_endian;
 
 void write_ply(std::ostream& out, const ShadowMesh& mesh) {
   out << "ply\nformat binary_little_endian 1.0\ncomment guarantee " << name_of(mesh.guarantee)
@@ -37,20 +24,20 @@ void write_ply(std::ostream& out, const ShadowMesh& mesh) {
       << "\nproperty list uchar int vertex_indices\nproperty uchar kind\nproperty int source\nproperty int "
          "object\n"
          "end_header\n";
-  LittleEndianBuffer buffer;
+  std::string bytes;
   for (const Vec3& p : mesh.positions) {
-    buffer.put(p.x);
-    buffer.put(p.y);
-    buffer.put(p.z);
+    append_little_endian(bytes, p.x);
+    append_little_endian(bytes, p.y);
+    append_little_endian(bytes, p.z);
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    buffer.put(std::uint8_t{3});
-    for (const std::uint32_t v : mesh.triangles[i]) buffer.put(static_cast<std::int32_t>(v));
-    buffer.put(static_cast<std::uint8_t>(mesh.tags[i].kind));
-    buffer.put(static_cast<std::int32_t>(mesh.tags[i].source));
-    buffer.put(static_cast<std::int32_t>(mesh.tags[i].object));
+    append_little_endian(bytes, std::uint8_t{3});
+    for (const std::uint32_t v : mesh.triangles[i]) append_little_endian(bytes, static_cast<std::int32_t>(v));
+    append_little_endian(bytes, static_cast<std::uint8_t>(mesh.tags[i].kind));
+    append_little_endian(bytes, static_cast<std::int32_t>(mesh.tags[i].source));
+    append_little_endian(bytes, static_cast<std::int32_t>(mesh.tags[i].object));
   }
-  out.write(buffer.bytes().data(), static_cast<std::streamsize>(buffer.bytes().size()));
+  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 
 void write_obj(std::ostream& out, const ShadowMesh& mesh) {
@@ -70,6 +57,19 @@ void write_obj(std::ostream& out, const ShadowMesh& mesh) {
       out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
     }
   }
+}
+
+/// The one table of formats that hold a triangle's kind, source and object.
+struct Format {
+  std::string_view name, extension;
+  void (*write)(std::ostream& out, const ShadowMesh& mesh);
+};
+constexpr std::array<Format, 2> kFormats = {{{"PLY", ".ply", write_ply}, {"OBJ", ".obj", write_obj}}};
+
+std::vector<std::string_view> column(std::string_view Format::*member) {
+  std::vector<std::string_view> values;
+  for (const Format& format : kFormats) values.push_back(format.*member);
+  return values;
 }
 
 /// What still holds of the union of two volumes. A union of umbras lies in the umbra of both casters
@@ -129,16 +129,22 @@ ShadowMesh merge(std::span<const ShadowMesh> parts) {
   return result;
 }
 
+std::vector<std::string_view> shadow_mesh_extensions() {
+  return column(&Format::extension);
+}
+
+std::string shadow_mesh_format_names() {
+  return detail::one_of(column(&Format::name));
+}
+
 void write_shadow_mesh(const std::filesystem::path& path, const ShadowMesh& mesh) {
-  const std::string extension = path.extension().string();
-  if (extension == ".ply" || path == "-") {
-    write_file(path, [&](std::ostream& out) { write_ply(out, mesh); });
-  } else if (extension == ".obj") {
-    write_file(path, [&](std::ostream& out) { write_obj(out, mesh); });
-  } else {
-    throw UsageError(path.string() +
-                     ": shadow meshes are written as .ply or .obj; choose one of these extensions");
+  const auto* format = std::ranges::find(kFormats, detail::lower_extension(path), &Format::extension);
+  if (path == "-") format = kFormats.begin();
+  if (format == kFormats.end()) {
+    throw UsageError(path.string() + ": shadow meshes are written as " +
+                     detail::one_of(shadow_mesh_extensions()) + "; choose one of these extensions");
   }
+  write_file(path, [&](std::ostream& out) { format->write(out, mesh); });
 }
 
 }  // namespace penumbra

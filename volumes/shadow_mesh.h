@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "penumbra/mesh/types.h"
@@ -52,8 +53,15 @@ struct ShadowMesh {
 /// `kContains`.
 ShadowMesh merge(std::span<const ShadowMesh> parts);
 
-/// PLY (binary little endian, doubles; face properties kind, source, object) or OBJ (one group per object and
-/// kind), by extension. Whole or not at all (write_file.h). Throws UsageError for another extension.
+/// The extensions that write_shadow_mesh knows: lower case, with the dot.
+std::vector<std::string_view> shadow_mesh_extensions();
+/// The formats' names in the same order, for help texts: "PLY or OBJ".
+std::string shadow_mesh_format_names();
+
+/// Writes the format that the extension names; PLY for the path "-", which is standard output. PLY is binary, little
+/// endian, in double, with the properties `kind`, `source` and `object` of each face. OBJ has a group for each object
+/// and kind. The file is written whole or not at all. Throws UsageError for another extension, SystemError where
+/// writing fails. Cost O(triangles).
 void write_shadow_mesh(const std::filesystem::path& path, const ShadowMesh& mesh);
 
 }  // namespace penumbra

@@ -2,13 +2,13 @@
 #include "penumbra/mesh/inspect.h"
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/inspect_reports.h"
 #include "apps/common/outputs.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/io/polygon_soup.h"
-#include "penumbra/volumes/checks/repair.h"
 
 namespace penumbra::apps {
 namespace {
@@ -28,7 +28,7 @@ struct Arguments {
 };
 
 RepairResult repair_file(const Arguments& arguments) {
-  require_extension("--repair", arguments.repair, {".ply", ".obj", ".off", ".stl"}, false);
+  require_extension("--repair", arguments.repair, mesh_extensions(), false);
   require_writable(arguments.repair);
   const PolygonSoup soup = read_polygon_soup(arguments.mesh);
   RepairResult result = repair(soup.positions, triangulate(soup).triangles);
@@ -36,21 +36,21 @@ RepairResult repair_file(const Arguments& arguments) {
   return result;
 }
 
+std::string text_of(const MeshFindings& findings, const std::optional<RepairResult>& repaired) {
+  return to_text(findings) + (repaired ? to_text(*repaired) : "");
+}
+
+std::string json_of(const MeshFindings& findings, const std::optional<RepairResult>& repaired) {
+  nlohmann::ordered_json report = findings_report(findings);
+  if (repaired) report["repair"] = repair_report(*repaired);
+  return report.dump(2) + "\n";
+}
+
 void run(const Arguments& arguments) {
   const MeshFindings findings = inspect(read_mesh(arguments.mesh));
-  std::string text = arguments.json ? penumbra::to_json(findings) : penumbra::to_text(findings);
-  if (!arguments.repair.empty()) {
-    const RepairResult repaired = repair_file(arguments);
-    if (arguments.json) {
-      nlohmann::ordered_json both = nlohmann::ordered_json::parse(text);
-      both["repair"] = nlohmann::ordered_json::parse(to_json(repaired));
-      text = both.dump(2);
-    } else {
-      text += to_text(repaired);
-    }
-  }
-  if (!text.ends_with('\n')) text += '\n';
-  print(text);
+  std::optional<RepairResult> repaired;
+  if (!arguments.repair.empty()) repaired = repair_file(arguments);
+  print(arguments.json ? json_of(findings, repaired) : text_of(findings, repaired));
 }
 
 }  // namespace
@@ -58,12 +58,12 @@ void run(const Arguments& arguments) {
 void add_inspect_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("inspect", "Counts, openness, orientation and defects of a mesh");
   auto arguments = std::make_shared<Arguments>();
-  command.add_option("MESH", arguments->mesh, "Mesh file: OBJ, PLY, OFF or STL")->required();
+  command.add_option("MESH", arguments->mesh, "Mesh file: " + mesh_format_names())->required();
   command.add_flag("--json", arguments->json, "Print JSON");
   command
-      .add_option(
-          "--repair", arguments->repair,
-          "Write the mesh with mendable components mended (PLY, OBJ, OFF or STL), and say what was done")
+      .add_option("--repair", arguments->repair,
+                  "Write the mesh with mendable components mended (" + mesh_format_names() +
+                      "), and say what was done")
       ->type_name("FILE");
   command.footer(kFooter);
   command.callback([arguments] { run(*arguments); });

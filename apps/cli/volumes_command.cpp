@@ -60,7 +60,7 @@ void check(const Arguments& arguments) {
       {"--umbra", &arguments.umbra}, {"--penumbra", &arguments.penumbra}, {"--sheets", &arguments.sheets}};
   for (const auto& [option, path] : meshes) {
     if (path->empty()) continue;
-    require_extension(option, *path, {".ply", ".obj"}, false);
+    require_extension(option, *path, shadow_mesh_extensions(), false);
     require_writable(*path);
     for (const auto& [other, other_path] : meshes)
       if (path != other_path && *path == *other_path)
@@ -185,7 +185,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_volumes_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("volumes", "Umbra and penumbra volumes as meshes (PLY or OBJ)");
+  CLI::App& command = *app.add_subcommand(
+      "volumes", "Umbra and penumbra volumes as meshes (" + shadow_mesh_format_names() + ")");
   auto arguments = std::make_shared<Arguments>();
   add_scene_input(command, arguments->scene);
   command

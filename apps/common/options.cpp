@@ -11,6 +11,7 @@
 
 #include "apps/common/messages.h"
 #include "penumbra/mesh/error.h"
+#include "penumbra/mesh/io/polygon_soup.h"
 
 namespace penumbra::apps {
 namespace {
@@ -65,7 +66,7 @@ void add_strict_option(CLI::App& command, SceneInput& input) {
 }
 
 void add_scene_input(CLI::App& command, SceneInput& input) {
-  command.add_option("SCENE", input.path, "Scene file (*.json) or bare mesh (OBJ, PLY, OFF, STL)")
+  command.add_option("SCENE", input.path, "Scene file (*.json) or bare mesh (" + mesh_format_names() + ")")
       ->required();
   add_strict_option(command, input);
 }

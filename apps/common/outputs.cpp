@@ -19,7 +19,7 @@ std::string extension_of(const std::filesystem::path& path) {
 }
 
 void require_extension(const std::string& option, const std::filesystem::path& path,
-                       std::initializer_list<std::string_view> known, bool stdout_allowed) {
+                       const std::vector<std::string_view>& known, bool stdout_allowed) {
   if (is_stdout(path) && stdout_allowed) return;
   const std::string extension = extension_of(path);
   if (std::find(known.begin(), known.end(), extension) != known.end()) return;

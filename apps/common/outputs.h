@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -19,7 +18,7 @@ std::string extension_of(const std::filesystem::path& path);
 
 /// Throws UsageError unless the extension is one of `known`, or the path is "-" and that is allowed.
 void require_extension(const std::string& option, const std::filesystem::path& path,
-                       std::initializer_list<std::string_view> known, bool stdout_allowed);
+                       const std::vector<std::string_view>& known, bool stdout_allowed);
 
 /// Throws SystemError where the file could not be created: no such folder, a folder itself, no permission.
 /// Finds before minutes of work what writing would find after them. Empty paths and "-" pass.

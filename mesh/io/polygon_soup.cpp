@@ -1,50 +1,17 @@
 #include "penumbra/mesh/io/polygon_soup.h"
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
 #include <system_error>
 
 #include "mesh/io/cursor.h"
-#include "mesh/io/readers.h"
+#include "mesh/io/formats.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra {
 namespace {
 
 namespace fs = std::filesystem;
-using Reader = PolygonSoup (*)(std::span<const std::byte>, const std::string&);
-
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return extension;
-}
-
-/// By magic word, then by extension, then by the size that only a binary STL file has.
-Reader choose_reader(std::span<const std::byte> bytes, const std::string& name) {
-  const std::string extension = lower_extension(name);
-  const std::string_view text = detail::as_text(bytes);
-  if (text.starts_with("ply\n") || text.starts_with("ply\r") || text.starts_with("ply ")) {
-    return detail::read_ply;
-  }
-  if (extension == ".obj") {
-    return detail::read_obj;
-  }
-  if (extension == ".stl") {
-    return detail::read_stl;
-  }
-  if (extension == ".off" || detail::is_off_keyword(detail::TextCursor(text, name, '#').token())) {
-    return detail::read_off;
-  }
-  if (text.starts_with("solid") || (extension != ".ply" && detail::has_binary_stl_size(bytes))) {
-    return detail::read_stl;
-  }
-  detail::fail_reading(name, "",
-                       extension == ".ply" ? "does not begin with 'ply'" : "is in no known mesh format",
-                       "use a file in OBJ, PLY, OFF or STL format, named so");
-}
 
 void check_soup(const PolygonSoup& soup, const std::string& name) {
   if (soup.polygon_count() == 0) {
@@ -104,7 +71,7 @@ PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::stri
   if (bytes.empty()) {
     detail::fail_reading(name, "", "the file is empty", "export it again");
   }
-  PolygonSoup soup = choose_reader(bytes, name)(bytes, name);
+  PolygonSoup soup = detail::recognize_format(bytes, name).read(bytes, name);
   check_soup(soup, name);
   return soup;
 }

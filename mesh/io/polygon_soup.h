@@ -1,18 +1,18 @@
-// Reading and writing meshes: OBJ, PLY (ASCII, binary of either byte order), OFF, STL (ASCII, binary).
+// Reading and writing mesh files: PLY (ASCII, binary of either byte order), OBJ, OFF (text) and STL (ASCII, binary).
 //
-// In: a path (the format is told by content where a magic word exists, else by extension). Out: positions in
-// double and polygons as index lists, exactly as the file has them; `triangulate` fans them. Nothing is
-// trusted: counts are checked against the file's size before memory is reserved, every index is checked,
-// every coordinate must be finite.
+// In: a path or bytes. Out: positions in double and polygons as lists of indices, exactly as the file has them;
+// `triangulate` makes triangles of them. Nothing in a file is trusted: counts are checked against its size before
+// memory is reserved, every index is checked, every coordinate must be finite. Normals, colors, texture coordinates
+// and all that is not vertices and faces are skipped.
 //
-// The readers are our own: OpenMesh's read single precision only and trust the counts they find, and a bad
-// file must give a clear message. Skipped are normals, colours, texture coordinates, and what is not vertices
-// and faces.
+// The readers are our own: OpenMesh's read single precision only and trust the counts that they find, and a bad file
+// must give a clear message.
 #pragma once
 
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "penumbra/mesh/triangle_mesh.h"
@@ -20,35 +20,49 @@
 
 namespace penumbra {
 
+/// Polygons over shared vertices. Nothing is said of how they are connected.
 struct PolygonSoup {
   std::vector<Vec3> positions;
-  std::vector<std::uint32_t> corners;       ///< all polygons' vertex indices, one after another
-  std::vector<std::uint32_t> first_corner;  ///< polygon i: corners[first_corner[i] .. first_corner[i+1])
+  /// The vertex indices of all polygons, one polygon after another.
+  std::vector<std::uint32_t> corners;
+  /// Polygon i has the corners first_corner[i] up to, but not including, first_corner[i + 1].
+  std::vector<std::uint32_t> first_corner;
+
   std::size_t polygon_count() const { return first_corner.empty() ? 0 : first_corner.size() - 1; }
 };
 
-/// Throws MeshError: missing, a folder or device, empty, truncated, malformed (with line or byte), no faces.
-/// Cost O(bytes).
+/// The extensions of the formats that are read and written: lower case, with the dot.
+std::vector<std::string_view> mesh_extensions();
+/// The formats' names in the same order, for help texts and messages: "PLY, OBJ, OFF or STL".
+std::string mesh_format_names();
+
+/// Reads a file. A file that begins as PLY does is PLY; otherwise its extension names the format; otherwise its
+/// content does. Throws MeshError, with line or byte, where the file is missing, no regular file, empty, truncated,
+/// malformed, in no known format, or without faces. Cost O(bytes).
 PolygonSoup read_polygon_soup(const std::filesystem::path& path);
-/// The same from memory; `name` is used in messages and its extension as the format's hint.
+/// The same from memory. `name` stands in messages, and its extension counts as a file's does.
 PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name);
 
 struct Triangulation {
   std::vector<IndexedTriangle> triangles;
-  std::vector<std::uint32_t> source_polygon;  ///< per triangle
-  std::size_t fanned_polygons = 0;            ///< polygons with more than three corners
-  std::size_t skipped_polygons = 0;           ///< polygons with fewer than three corners (left out)
+  /// For each triangle the polygon that it came from.
+  std::vector<std::uint32_t> source_polygon;
+  /// Polygons with more than three corners.
+  std::size_t fanned_polygons = 0;
+  /// Polygons with fewer than three corners. They are left out.
+  std::size_t skipped_polygons = 0;
 };
-/// Fans each polygon from its first corner.
+/// Divides each polygon into the triangles between its first corner and the sides that do not meet it. Cost O(corners).
 Triangulation triangulate(const PolygonSoup& soup);
 
-/// read_polygon_soup, triangulate and TriangleMesh::build. Throws MeshError also where no face is left.
+/// read_polygon_soup, triangulate and TriangleMesh::build in one. Throws MeshError as they do, and where no face is
+/// left.
 TriangleMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options = {});
 
-/// Writes PLY (binary little endian, double; also for the path "-", standard output), OBJ, OFF (both with the
-/// shortest decimals that read back exactly) or STL (binary, float, hence lossy) by extension; whole or not
-/// at all, see write_file.h. Throws UsageError (unknown extension, a coordinate beyond STL's range) and
-/// SystemError.
+/// Writes a file whose format its extension names; PLY for the path "-", which is standard output. PLY is binary, little
+/// endian, in double. OBJ and OFF have the shortest decimals that read back exactly. STL is binary, in float: it loses
+/// precision and shared vertices. The file is written whole or not at all. Throws UsageError (unknown extension, a
+/// coordinate beyond the range of STL) and SystemError.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace penumbra

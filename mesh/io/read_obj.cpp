@@ -1,7 +1,7 @@
 // Wavefront OBJ: v and f (v, v/vt, v//vn, v/vt/vn, negative indices count back from the last vertex so far);
 // everything else is skipped. A backslash at the end of a line continues it.
 #include "mesh/io/cursor.h"
-#include "mesh/io/readers.h"
+#include "mesh/io/formats.h"
 
 namespace penumbra::detail {
 namespace {

@@ -2,10 +2,19 @@
 // named .off. Each vertex and each face ends its line: normals, colours and texture coordinates after them
 // are skipped.
 #include "mesh/io/cursor.h"
-#include "mesh/io/readers.h"
+#include "mesh/io/formats.h"
 
 namespace penumbra::detail {
 namespace {
+
+bool is_off_keyword(std::string_view token) {
+  for (const std::string_view prefix : {"ST", "C", "N", "4", "n"}) {
+    if (token.starts_with(prefix)) {
+      token.remove_prefix(prefix.size());
+    }
+  }
+  return token == "OFF";
+}
 
 /// Returns the first token of the counts, if the header's line was read over.
 std::size_t read_header(TextCursor& cursor) {
@@ -38,13 +47,8 @@ void check_count(const TextCursor& cursor, std::size_t count, std::size_t bytes_
 
 }  // namespace
 
-bool is_off_keyword(std::string_view token) {
-  for (const std::string_view prefix : {"ST", "C", "N", "4", "n"}) {
-    if (token.starts_with(prefix)) {
-      token.remove_prefix(prefix.size());
-    }
-  }
-  return token == "OFF";
+bool begins_like_off(std::span<const std::byte> bytes) {
+  return is_off_keyword(TextCursor(as_text(bytes), {}, '#').token());
 }
 
 PolygonSoup read_off(std::span<const std::byte> bytes, const std::string& name) {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "mesh/io/cursor.h"
-#include "mesh/io/readers.h"
+#include "mesh/io/formats.h"
 
 namespace penumbra::detail {
 namespace {
@@ -322,6 +322,11 @@ class ElementReader {
 };
 
 }  // namespace
+
+bool begins_like_ply(std::span<const std::byte> bytes) {
+  const std::string_view text = as_text(bytes);
+  return text.starts_with("ply\n") || text.starts_with("ply\r") || text.starts_with("ply ");
+}
 
 PolygonSoup read_ply(std::span<const std::byte> bytes, const std::string& name) {
   TextCursor cursor(as_text(bytes), name, 0);

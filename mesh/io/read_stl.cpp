@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "mesh/io/cursor.h"
-#include "mesh/io/readers.h"
+#include "mesh/io/formats.h"
 
 namespace penumbra::detail {
 namespace {
@@ -96,6 +96,10 @@ PolygonSoup read_ascii(std::span<const std::byte> bytes, const std::string& name
 }
 
 }  // namespace
+
+bool begins_like_stl(std::span<const std::byte> bytes) {
+  return as_text(bytes).starts_with("solid");
+}
 
 bool has_binary_stl_size(std::span<const std::byte> bytes) {
   return bytes.size() >= kHeaderBytes + 4 &&

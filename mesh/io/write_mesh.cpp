@@ -1,13 +1,13 @@
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <ostream>
 #include <string>
 
+#include "mesh/io/formats.h"
+#include "mesh/io/little_endian.h"
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/io/polygon_soup.h"
@@ -15,17 +15,7 @@
 namespace penumbra {
 namespace {
 
-using Writer = void (*)(std::ostream&, const TriangleMesh&);
-
-template <class T>
-void append_little_endian(std::string& bytes, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) {
-    std::reverse(raw, raw + sizeof(T));
-  }
-  bytes.append(raw, sizeof(T));
-}
+using detail::append_little_endian;
 
 /// The shortest decimals that read back as exactly the same double.
 void append_number(std::string& text, double value) {
@@ -59,7 +49,31 @@ class Buffered {
   std::ostream& out_;
 };
 
-void write_ply(std::ostream& out, const TriangleMesh& mesh) {
+void write_text(std::ostream& out, const TriangleMesh& mesh, const char* vertex, const char* face,
+                std::uint32_t first_index) {
+  Buffered buffer(out);
+  for (const Vec3& p : mesh.positions()) {
+    append_point(buffer.text += vertex, p);
+    buffer.pass_on();
+  }
+  for (const auto& [a, b, c] : mesh.triangles()) {
+    buffer.text.append(face).append(std::to_string(a + first_index)).append(" ");
+    buffer.text.append(std::to_string(b + first_index)).append(" ");
+    buffer.text.append(std::to_string(c + first_index)).append("\n");
+    buffer.pass_on();
+  }
+  buffer.finish();
+}
+
+void append_floats(std::string& bytes, const Vec3& p) {
+  for (const double x : {p.x, p.y, p.z}) {
+    append_little_endian(bytes, static_cast<float>(x));
+  }
+}
+
+}  // namespace
+
+void detail::write_ply(std::ostream& out, const TriangleMesh& mesh) {
   Buffered buffer(out);
   buffer.text +=
       "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions().size()) +
@@ -81,44 +95,23 @@ void write_ply(std::ostream& out, const TriangleMesh& mesh) {
   buffer.finish();
 }
 
-void write_text(std::ostream& out, const TriangleMesh& mesh, const char* vertex, const char* face,
-                std::uint32_t first_index) {
-  Buffered buffer(out);
-  for (const Vec3& p : mesh.positions()) {
-    append_point(buffer.text += vertex, p);
-    buffer.pass_on();
-  }
-  for (const auto& [a, b, c] : mesh.triangles()) {
-    buffer.text.append(face).append(std::to_string(a + first_index)).append(" ");
-    buffer.text.append(std::to_string(b + first_index)).append(" ");
-    buffer.text.append(std::to_string(c + first_index)).append("\n");
-    buffer.pass_on();
-  }
-  buffer.finish();
-}
-
-void write_obj(std::ostream& out, const TriangleMesh& mesh) {
+void detail::write_obj(std::ostream& out, const TriangleMesh& mesh) {
   write_text(out, mesh, "v ", "f ", 1);
 }
 
-void write_off(std::ostream& out, const TriangleMesh& mesh) {
+void detail::write_off(std::ostream& out, const TriangleMesh& mesh) {
   out << "OFF\n"
       << mesh.positions().size() << ' ' << mesh.triangles().size() << ' ' << mesh.edges().size() << '\n';
   write_text(out, mesh, "", "3 ", 0);
 }
 
-void append_floats(std::string& bytes, const Vec3& p) {
-  for (const double x : {p.x, p.y, p.z}) {
-    append_little_endian(bytes, static_cast<float>(x));
-  }
-}
-
-void write_stl(std::ostream& out, const TriangleMesh& mesh) {
+void detail::write_stl(std::ostream& out, const TriangleMesh& mesh) {
   const Bounds bounds = bounds_of(mesh.positions());
   const Vec3 furthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
   if (!mesh.empty() && std::max({furthest.x, furthest.y, furthest.z}) > std::numeric_limits<float>::max()) {
     throw UsageError(
-        "STL: a coordinate is too large for its single precision; write PLY, OBJ or OFF instead");
+        "STL: a coordinate is too large for its single precision; write PLY instead, which has double "
+        "precision");
   }
   Buffered buffer(out);
   buffer.text.assign(80, ' ');  // does not begin with "solid"
@@ -137,31 +130,9 @@ void write_stl(std::ostream& out, const TriangleMesh& mesh) {
   buffer.finish();
 }
 
-Writer choose_writer(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  }
-  if (extension == ".ply" || path == "-") {
-    return write_ply;
-  }
-  if (extension == ".obj") {
-    return write_obj;
-  }
-  if (extension == ".off") {
-    return write_off;
-  }
-  if (extension == ".stl") {
-    return write_stl;
-  }
-  throw UsageError(path.string() + ": the extension names no mesh format; use .ply, .obj, .off or .stl");
-}
-
-}  // namespace
-
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
-  const Writer writer = choose_writer(path);
-  write_file(path, [&](std::ostream& out) { writer(out, mesh); });
+  const detail::MeshFormat& format = detail::format_to_write(path);
+  write_file(path, [&](std::ostream& out) { format.write(out, mesh); });
 }
 
 }  // namespace penumbra

@@ -1,13 +1,10 @@
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "penumbra/volumes/checks/repair.h"
 
 namespace penumbra {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string counted(std::size_t count, const char* what, bool all = true) {
   return (all ? "" : "more than ") + std::to_string(count) + " " + what;
@@ -50,20 +47,6 @@ std::string line_of(const ComponentRepair& r) {
   return "left as they are: " + why_it_was_left(r);
 }
 
-Json to_json_object(const ComponentRepair& r) {
-  return {{"verdict", name_of(r.verdict)},
-          {"faces", r.faces.size()},
-          {"first_face", r.faces.front()},
-          {"dropped", r.dropped},
-          {"flipped", r.flipped},
-          {"stitched_edges", r.stitched_edges},
-          {"boundary_edges", r.boundary_edges},
-          {"non_manifold_edges", r.non_manifold_edges},
-          {"not_orientable", r.not_orientable},
-          {"self_intersections", r.self_intersections},
-          {"all_counted", r.all_counted}};
-}
-
 }  // namespace
 
 const char* name_of(RepairVerdict verdict) {
@@ -101,16 +84,6 @@ std::string to_text(const RepairResult& result) {
             line + "\n";
   }
   return text;
-}
-
-std::string to_json(const RepairResult& result) {
-  Json components = Json::array();
-  for (const ComponentRepair& r : result.components) components.push_back(to_json_object(r));
-  return Json{{"faces", result.triangles.size()},
-              {"welded_vertices", result.welded_vertices},
-              {"degenerate", result.degenerate},
-              {"components", components}}
-      .dump(2);
 }
 
 }  // namespace penumbra

@@ -83,6 +83,27 @@ TEST_F(CommandTest, InspectAsTextAndJson) {
   EXPECT_EQ(findings["closed"], true);
 }
 
+TEST_F(CommandTest, InspectReportsEveryFindingByName) {
+  const std::string mesh = write("odd.off",
+                                 "OFF\n5 4 0\n5 0 0\n6 0 0\n5 1 0\n0 0 0\n0 0 1\n"
+                                 "3 0 1 2\n3 0 1 2\n3 0 0 1\n3 3 4 2\n");
+  const Json json = Json::parse(fine({"inspect", mesh, "--json"}).out);
+  EXPECT_EQ(json.at("faces"), 3);
+  EXPECT_EQ(json.at("closed"), false);
+  EXPECT_EQ(json.at("bounds").at("low"), Json::array({0.0, 0.0, 0.0}));
+  EXPECT_EQ(json.at("bounds").at("high"), Json::array({6.0, 1.0, 1.0}));
+  EXPECT_EQ(json.at("build").at("duplicates"), Json::array({1}));
+  EXPECT_EQ(json.at("build").at("degenerate"), Json::array({2}));
+  for (const char* key : {"vertices", "edges", "components", "closed_components", "boundary_edges",
+                          "boundary_vertices", "signed_volume", "surface_area"})
+    EXPECT_TRUE(json.at(key).is_number()) << key;
+}
+
+TEST_F(CommandTest, VolumesAreWrittenWhateverTheCaseOfTheExtension) {
+  fine({"volumes", scene_, "--penumbra", path("p.OBJ")});
+  EXPECT_TRUE(std::filesystem::exists(file("p.OBJ")));
+}
+
 TEST_F(CommandTest, ClassifyCountsAgreeWithLists) {
   EXPECT_NE(fine({"classify", scene_}).out.find("cube.off"), std::string::npos);
   const Json report = Json::parse(fine({"classify", scene_, "--json", "--threads", "1"}).out);
