@@ -31,7 +31,7 @@ struct HalfPlate {
 TEST(EntryCheck, SixteenRaysFindAHalfPlane) {
   const HalfPlate under;
   const std::uint32_t pixels[] = {3, 1, 0, 2};
-  const Values seen = under.center.sampled_visibility(under.scene.light, pixels);
+  const Values seen = under.center.sampled_visibility(testing::light_of(under.scene), pixels);
   EXPECT_EQ(seen[0], 1.0f);
   EXPECT_EQ(seen[2], 0.0f);
   // The plate at half the height hides x < -δ of the disk, δ = -0.2 and 0.2.
@@ -206,11 +206,11 @@ TEST(EntryCheck, LessensTheError) {
     const Scene scene = testing::data_scene(name);
     const View view(scene, 240, 180);
     DBuffer buffer(*context, scene, view.rays);
-    buffer.set_surface(view.surface);
+    buffer.set_surface(view.surface.receivers());
     const Pixels near = view.near_penumbra(testing::every_pixel(view.surface));
     const Values one = view.trace(near, 256, 21), two = view.trace(near, 256, 22);
     const auto rmse = [&](EntryCheck check) {
-      const Values v = buffer.render(scene.light, {.check = check}).visibility;
+      const Values v = buffer.render(testing::light_of(scene), {.check = check}).visibility;
       return testing::penumbra_error(at_pixels(v, near), one, two).rmse;
     };
     const double with = rmse(EntryCheck::kRays), without = rmse(EntryCheck::kNone);

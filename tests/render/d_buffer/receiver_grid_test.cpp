@@ -81,15 +81,15 @@ TEST(ReceiverGrid, PixelsDoNotDependOnOtherPixels) {
     const View view(scene, 160, 120);
     const auto context = gl::make_context(gl::Backend::kOsMesa);
     DBuffer buffer(*context, scene, view.rays);
-    buffer.set_surface(view.surface);
+    buffer.set_surface(view.surface.receivers());
     const DBufferOptions options{.size = 512, .check = EntryCheck::kNone};  // which looks at neighbours
-    const Values all = buffer.render(scene.light, options).visibility;
+    const Values all = buffer.render(testing::light_of(scene), options).visibility;
     SurfaceBuffer few = view.surface;
     Random random(3);
     for (std::int32_t& object : few.object)
       if (random.uniform(0, 1) < 0.9) object = -1;
-    buffer.set_surface(few);
-    const Values some = buffer.render(scene.light, options).visibility;
+    buffer.set_surface(few.receivers());
+    const Values some = buffer.render(testing::light_of(scene), options).visibility;
     int seen = 0, differ = 0;
     for (std::size_t i = 0; i < few.size(); ++i) {
       if (!few.hit(i) || (all[i] == 1.0f && some[i] == 1.0f)) continue;
