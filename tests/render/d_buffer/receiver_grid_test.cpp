@@ -82,7 +82,7 @@ TEST(ReceiverGrid, PixelsDoNotDependOnOtherPixels) {
     const auto context = gl::make_context(gl::Backend::kOsMesa);
     DBuffer buffer(*context, scene, view.rays);
     buffer.set_surface(view.surface);
-    const DBufferOptions options{.size = 512, .check = EntryCheck::kNone};  // which looks at neighbours
+    const DBufferOptions options{.size = 512, .check = EntryCheck::kNone};  // which looks at neighbors
     const Values all = buffer.render(scene.light, options).visibility;
     SurfaceBuffer few = view.surface;
     Random random(3);
