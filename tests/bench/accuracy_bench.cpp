@@ -1,5 +1,6 @@
 // The frame of every method against its error. The silhouette method is taken as the truth: it has no noise.
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,31 +15,38 @@ constexpr double kNearlyNone = 1e-4;  // of the disk: above the silhouette metho
 
 struct Row {
   const char* name;
-  const char* method;
-  OptionValues options{};
+  std::function<void(RenderOptions&)> choose;
 };
 
 std::vector<Row> rows() {
-  const auto number = [](std::uint64_t n) { return OptionValue(n); };
+  const auto d_buffer = [](auto change) {
+    return [change](RenderOptions& o) { o.method = Method::kDBuffer, change(o.d_buffer); };
+  };
+  const auto textures = [](auto change) {
+    return [change](RenderOptions& o) { o.method = Method::kOcclusionTextures, change(o.occlusion); };
+  };
+  const auto rays = [](int samples) {
+    return [samples](RenderOptions& o) { o.method = Method::kReference, o.reference.samples = samples; };
+  };
   return {
-      {"silhouette", "silhouette"},
-      {"dbuffer", "dbuffer"},
-      {"dbuffer, two entries", "dbuffer", {{"dbuffer-entries", number(2)}}},
-      {"dbuffer, no rays asked", "dbuffer", {{"dbuffer-check", "none"}}},
-      {"dbuffer, furthest", "dbuffer", {{"conflict", "furthest"}, {"dbuffer-check", "none"}}},
-      {"dbuffer, the paper's",
-       "dbuffer",
-       {{"dbuffer", "distances"},
-        {"visibility", "smoothstep"},
-        {"dbuffer-center", "depth"},
-        {"dbuffer-check", "none"}}},
-      {"occlusion-textures", "occlusion-textures"},
-      {"occlusion-textures, 8 slices", "occlusion-textures", {{"slices", number(8)}}},
-      {"occlusion-textures, all faces", "occlusion-textures", {{"slice-faces", "all"}}},
-      {"hard", "hard"},
-      {"reference, 16 rays", "reference", {{"samples", number(16)}}},
-      {"reference, 64 rays", "reference", {{"samples", number(64)}}},
-      {"reference, 256 rays", "reference", {{"samples", number(256)}}},
+      {"silhouette", [](RenderOptions& o) { o.method = Method::kSilhouette; }},
+      {"dbuffer", d_buffer([](DBufferOptions&) {})},
+      {"dbuffer, two entries", d_buffer([](DBufferOptions& o) { o.entries = 2; })},
+      {"dbuffer, no rays asked", d_buffer([](DBufferOptions& o) { o.check = EntryCheck::kNone; })},
+      {"dbuffer, furthest",
+       d_buffer([](DBufferOptions& o) { o.conflict = Conflict::kFurthest, o.check = EntryCheck::kNone; })},
+      {"dbuffer, the paper's", d_buffer([](DBufferOptions& o) {
+         o.contents = DBufferContents::kDistances, o.curve = VisibilityCurve::kSmoothstep;
+         o.center = CenterTest::kDepth, o.check = EntryCheck::kNone;
+       })},
+      {"occlusion-textures", textures([](OcclusionOptions&) {})},
+      {"occlusion-textures, 8 slices", textures([](OcclusionOptions& o) { o.slices = 8; })},
+      {"occlusion-textures, all faces", textures([](OcclusionOptions& o) { o.faces = SliceFaces::kAll; })},
+      {"rays, 256 rays", [](RenderOptions& o) { o.method = Method::kRays; }},
+      {"hard", [](RenderOptions& o) { o.method = Method::kHard; }},
+      {"reference, 16 rays", rays(16)},
+      {"reference, 64 rays", rays(64)},
+      {"reference, 256 rays", rays(256)},
   };
 }
 
@@ -76,16 +84,14 @@ void measure(Record& record, const std::string& name) {
   const Scene scene = bench_scene(name);
   const std::vector<Row> all = rows();
   std::vector<RenderOptions> options(all.size());
-  for (std::size_t k = 0; k < all.size(); ++k)
-    options[k].method = all[k].method, options[k].options = all[k].options;
-  Renderer renderer(scene);
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].choose(options[k]);
+  Renderer renderer(scene, options.front());
   std::vector<Measured> measured(all.size());
   SurfaceBuffer surface;
   for (int i = 0; i <= kFrames; ++i)
     for (std::size_t k = 0; k < all.size(); ++k) {
-      renderer.forget();
-      RenderResult frame = renderer.render(options[k]);
-      if (options[k].method == "dbuffer") record.set_renderer(frame.lights.front().renderer);
+      RenderResult frame = renderer.render_frame(options[k]);
+      if (options[k].method == Method::kDBuffer) record.set_renderer(frame.stats.at("renderer"));
       if (i == 0)  // warms up
         measured[k].visibility = frame.image.at("visibility"), surface = std::move(frame.surface);
       else

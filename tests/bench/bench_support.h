@@ -14,7 +14,6 @@
 #include "penumbra/render/scene/scene.h"
 #include "render/rays/reference.h"
 #include "tests/bench/record.h"
-#include "tests/render/visibility_support.h"
 
 namespace penumbra::bench {
 
@@ -65,11 +64,9 @@ struct Truth {
     ReferenceOptions options;
     options.samples = samples;
     options.seed = 101;
-    first =
-        trace_reference(rays, scene.lights.front().shape, surface.receivers(), pixels, options).visibility;
+    first = trace_reference(scene, rays, surface, pixels, options).visibility;
     options.seed = 102;
-    second =
-        trace_reference(rays, scene.lights.front().shape, surface.receivers(), pixels, options).visibility;
+    second = trace_reference(scene, rays, surface, pixels, options).visibility;
     for (std::uint32_t p : pixels)
       if (surface.hit(p)) receivers.push_back(p);
     penumbra = true_penumbra(first, second, receivers);

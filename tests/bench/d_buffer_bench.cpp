@@ -32,8 +32,7 @@ int rays_of_equal_error(const Scene& scene, const RayScene& rays, const SurfaceB
     options.samples = n;
     options.seed = 7;
     std::vector<float> all(surface.size(), 1.0f);
-    const ReferenceResult r =
-        trace_reference(rays, testing::light_of(scene), surface.receivers(), truth.penumbra, options);
+    const ReferenceResult r = trace_reference(scene, rays, surface, truth.penumbra, options);
     for (std::size_t i = 0; i < truth.penumbra.size(); ++i) all[truth.penumbra[i]] = r.visibility[i];
     const double error = truth.rmse(all);
     if (error <= rmse) {
@@ -55,7 +54,7 @@ struct Stand {
         surface(make_surface_buffer(scene, rays, 640, 480)),
         context(gl::make_context(gl::Backend::kOsMesa)),
         d_buffer(*context, scene, rays) {
-    d_buffer.set_surface(surface.receivers());
+    d_buffer.set_surface(surface);
   }
   Scene scene;
   RayScene rays;
@@ -67,7 +66,7 @@ struct Stand {
 void time_scene(Record& record, const std::string& name) {
   Stand stand(bench_scene(name));
   const Truth truth(stand.scene, stand.rays, stand.surface, 1024);
-  const double rmse = truth.rmse(stand.d_buffer.render(testing::light_of(stand.scene), {}).visibility);
+  const double rmse = truth.rmse(stand.d_buffer.render(stand.scene.light, {}).visibility);
   ReferenceOptions equal;
   equal.samples = rays_of_equal_error(stand.scene, stand.rays, stand.surface, truth, rmse);
   const std::vector<std::uint32_t> pixels = all_pixels(stand.surface);
@@ -75,12 +74,11 @@ void time_scene(Record& record, const std::string& name) {
   std::map<std::string, std::vector<double>> stages;
   std::vector<double> frames, rays, paired_frames;
   for (int i = 0; i < kFrames; ++i) {
-    const DBufferFrame frame = fresh_frame(stand.d_buffer, testing::light_of(stand.scene));
+    const DBufferFrame frame = fresh_frame(stand.d_buffer, stand.scene.light);
     for (const StageTime& s : frame.stages) stages[s.name].push_back(s.milliseconds);
     frames.push_back(total_ms(frame.stages));
     if (!rays.empty() && rays.back() > kLongFrame && i >= 2) continue;
-    const ReferenceResult r =
-        trace_reference(stand.rays, testing::light_of(stand.scene), stand.surface.receivers(), pixels, equal);
+    const ReferenceResult r = trace_reference(stand.scene, stand.rays, stand.surface, pixels, equal);
     rays.push_back(r.milliseconds);
     paired_frames.push_back(frames.back());
   }
@@ -99,8 +97,7 @@ void time_scene(Record& record, const std::string& name) {
 std::vector<double> frame_times(Stand& stand, const DBufferOptions& options = {}) {
   std::vector<double> times;
   for (int i = 0; i <= kFrames; ++i) {
-    const double total =
-        total_ms(fresh_frame(stand.d_buffer, testing::light_of(stand.scene), options).stages);
+    const double total = total_ms(fresh_frame(stand.d_buffer, stand.scene.light, options).stages);
     if (i > 0) times.push_back(total);
   }
   return times;
@@ -128,7 +125,7 @@ void time_faces(Record& record) {
 void time_radii(Record& record, const std::string& name) {
   Scene scene = bench_scene(name);
   for (double radius : {0.05, 0.1, 0.2, 0.4, 0.8, 1.6}) {
-    testing::light_of(scene).radius = radius;
+    scene.light.radius = radius;
     Stand stand(scene);
     char text[16];
     std::snprintf(text, sizeof text, "%g", radius);

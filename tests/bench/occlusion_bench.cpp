@@ -54,15 +54,9 @@ void time_prefilters(Record& record) {
 
 RenderOptions occlusion_options(int slices) {
   RenderOptions options;
-  options.method = "occlusion-textures";
-  options.options["slices"] = static_cast<std::uint64_t>(slices);
+  options.method = Method::kOcclusionTextures;
+  options.occlusion.slices = slices;
   return options;
-}
-
-/// Of a frame of which nothing is kept but one-time set-up.
-double fresh_frame_ms(Renderer& renderer, const RenderOptions& options) {
-  renderer.forget();
-  return renderer.render(options).frame_ms;
 }
 
 /// One frame of each in turn: what else the machine does hits all alike.
@@ -72,14 +66,14 @@ void time_radii(Record& record, const std::string& name) {
   std::vector<std::unique_ptr<Renderer>> renderers;
   const RenderOptions options = occlusion_options(16);
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    testing::light_of(scenes[i]).radius = radii[i];
-    renderers.push_back(std::make_unique<Renderer>(scenes[i]));
-    renderers.back()->render(options);
+    scenes[i].light.radius = radii[i];
+    renderers.push_back(std::make_unique<Renderer>(scenes[i], options));
+    renderers.back()->render_frame(options);
   }
   std::vector<std::vector<double>> frames(radii.size());
   for (int round = 0; round < kRounds; ++round)
     for (std::size_t i = 0; i < radii.size(); ++i)
-      frames[i].push_back(fresh_frame_ms(*renderers[i], options));
+      frames[i].push_back(renderers[i]->render_frame(options).frame_ms);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     char radius[16];
     std::snprintf(radius, sizeof radius, "%g", radii[i]);
@@ -91,12 +85,12 @@ void time_radii(Record& record, const std::string& name) {
 
 void time_slices(Record& record, const std::string& name) {
   const Scene scene = bench_scene(name);
-  Renderer renderer(scene);
+  Renderer renderer(scene, occlusion_options(16));
   const std::vector<int> counts{4, 8, 12, 16};
   std::vector<std::vector<double>> frames(counts.size());
   for (int round = 0; round <= kRounds; ++round)
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      const double ms = fresh_frame_ms(renderer, occlusion_options(counts[i]));
+      const double ms = renderer.render_frame(occlusion_options(counts[i])).frame_ms;
       if (round > 0) frames[i].push_back(ms);
     }
   for (std::size_t i = 0; i < counts.size(); ++i)

@@ -19,39 +19,17 @@ struct Times {
   std::vector<double> silhouette, rays, reference;
 };
 
-/// A scene ready to be timed.
-struct Stand {
-  explicit Stand(const Scene& of)
-      : scene(of),
-        rays(scene, 0),
-        surface(make_surface_buffer(scene, rays, 640, 480)),
-        hierarchies(scene, rays.frame()) {}
-  Stand(const Stand&) = delete;  // the hierarchies refer to its scene
-  SilhouetteResult frame(const SilhouetteOptions& options = {}) const {
-    return silhouette_visibility(scene, rays, hierarchies, testing::light_of(scene), surface.receivers(),
-                                 options);
-  }
-  Scene scene;
-  RayScene rays;
-  SurfaceBuffer surface;
-  mutable detail::EdgeHierarchies hierarchies;
-};
-
 /// One frame by each method, so that whatever else the machine does meets all three.
-void time_frame(const Stand& stand, Times& times) {
-  const auto trace = [&](std::span<const std::uint32_t> pixels) {
-    ReferenceOptions options;
-    options.samples = kSamples;
-    const LightShape& light = stand.scene.lights.front().shape;
-    return trace_reference(stand.rays, light, stand.surface.receivers(), pixels, options).milliseconds;
-  };
-  times.silhouette.push_back(total_ms(stand.frame().stages));
+void time_frame(const Scene& scene, const RayScene& rays, const SurfaceBuffer& surface, Times& times) {
+  ReferenceOptions options;
+  options.samples = kSamples;
+  times.silhouette.push_back(total_ms(silhouette_visibility(scene, rays, surface).stages));
   SilhouetteOptions certify;
   certify.integrate = false;
-  const SilhouetteResult certified = stand.frame(certify);
-  const double open_ms = trace(certified.open);
-  times.rays.push_back(total_ms(certified.stages) + open_ms);
-  times.reference.push_back(trace(all_pixels(stand.surface)));
+  const SilhouetteResult certified = silhouette_visibility(scene, rays, surface, certify);
+  const ReferenceResult open = trace_reference(scene, rays, surface, certified.open, options);
+  times.rays.push_back(total_ms(certified.stages) + open.milliseconds);
+  times.reference.push_back(trace_reference(scene, rays, surface, all_pixels(surface), options).milliseconds);
 }
 
 /// Of the pixels that no face overlaps those that are certified lit, by geometry; of those that no one of
@@ -71,12 +49,21 @@ CertifiedShares certified_shares(const Scene& scene, const RayScene& rays, const
   }
   ReferenceOptions options;
   options.samples = 1024;
-  for (const float o :
-       trace_reference(rays, testing::light_of(scene), surface.receivers(), open, options, true).unoccluded)
+  for (const float o : trace_reference(scene, rays, surface, open, options, true).unblocked)
     may_be_umbra += o == 0.0f ? 1.0 : 0.0;
   return {testing::certified_share_of_free(scene, rays, surface, region, 5'000'000).share,
           umbra + may_be_umbra > 0.0 ? umbra / (umbra + may_be_umbra) : 1.0};
 }
+
+/// A scene ready to be timed.
+struct Stand {
+  explicit Stand(const Scene& of)
+      : scene(of), rays(scene, 0), surface(make_surface_buffer(scene, rays, 640, 480)) {}
+  SilhouetteResult frame() const { return silhouette_visibility(scene, rays, surface); }
+  Scene scene;
+  RayScene rays;
+  SurfaceBuffer surface;
+};
 
 /// The frame, and how many times that of the first stand it takes; frames of both are interleaved.
 void time_growth(Record& record, const std::string& what, const Stand& first, const Stand& stand) {
@@ -98,12 +85,12 @@ void time_growth(Record& record, const std::string& what, const Stand& first, co
 void time_radii(Record& record, const std::string& name) {
   for (const double scale : {0.25, 0.5, 1.0, 2.0, 4.0}) {
     Scene scene = bench_scene(name);
-    testing::light_of(scene).radius *= scale;
+    scene.light.radius *= scale;
     const Stand stand(scene);
     Times times;
-    for (int i = 0; i <= kFrames; ++i) time_frame(stand, times);
+    for (int i = 0; i <= kFrames; ++i) time_frame(stand.scene, stand.rays, stand.surface, times);
     char radius[16];
-    std::snprintf(radius, sizeof radius, "%g", testing::light_of(scene).radius);
+    std::snprintf(radius, sizeof radius, "%g", scene.light.radius);
     const std::string path = name + "/radius " + radius;
     record.add(path + "/silhouette", "ms", times.silhouette);
     record.add(path + "/rays", "ms", times.rays);
@@ -112,14 +99,16 @@ void time_radii(Record& record, const std::string& name) {
 }
 
 void time_scene(Record& record, const std::string& name) {
-  const Stand stand(bench_scene(name));
+  const Scene scene = bench_scene(name);
+  const RayScene rays(scene, 0);
+  const SurfaceBuffer surface = make_surface_buffer(scene, rays, 640, 480);
   Times times;
   for (int i = 0; i <= kFrames; ++i) {
     if (i == 1) times = {};  // the first frame warms up
-    time_frame(stand, times);
+    time_frame(scene, rays, surface, times);
   }
-  const SilhouetteResult r = stand.frame();
-  const CertifiedShares shares = certified_shares(stand.scene, stand.rays, stand.surface, r.region);
+  const SilhouetteResult r = silhouette_visibility(scene, rays, surface);
+  const CertifiedShares shares = certified_shares(scene, rays, surface, r.region);
   const auto each = [](std::size_t sum, std::size_t count) {
     return static_cast<double>(sum) / static_cast<double>(std::max<std::size_t>(1, count));
   };
@@ -135,8 +124,8 @@ void time_scene(Record& record, const std::string& name) {
   record.add(name + "/certified of lit", "1", shares.lit);
   record.add(name + "/certified of umbra", "1", shares.umbra);
   record.add(name + "/lists", "MiB", static_cast<double>(r.counts.bytes) / 1048576.0);
-  record.add(name + "/hierarchy of edges", "ms", stand.hierarchies.milliseconds());
-  record.add(name + "/hierarchy of faces", "ms", stand.rays.build_ms());
+  record.add(name + "/hierarchy of edges", "ms", rays.edge_hierarchy_ms());
+  record.add(name + "/hierarchy of faces", "ms", rays.build_ms());
 }
 
 }  // namespace
