@@ -116,7 +116,7 @@ TEST_P(InAnyOrder, ReceiversSeeTheSameToTheBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Visibility, InAnyOrder, ::testing::Values("silhouette", "reference", "hard"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& method) { return std::string(method.param); });
 
 /// Points in the air between a torus and its floor, turned at random.
 Points points_in_the_air(const Scene& scene, std::size_t count) {
