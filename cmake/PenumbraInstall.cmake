@@ -51,7 +51,7 @@ penumbra_component(volumes "umbra and penumbra volumes of meshes under a disk li
 penumbra_component(checks "checks and repair of volumes and meshes (with CGAL packages under the GPL)"
                    NEEDS volumes PACKAGES TBB MODULES tbb gmp mpfr)
 penumbra_component(visibility "visibility of a light from points, without OpenGL"
-                   NEEDS volumes PACKAGES nlohmann_json "embree 3" TBB PUBLIC_MODULES nlohmann_json MODULES tbb FLAGS -lembree3)
+                   NEEDS volumes PACKAGES "embree 3" TBB MODULES tbb FLAGS -lembree3)
 penumbra_component(render "images of soft shadows"
                    NEEDS visibility PACKAGES "embree 3" TBB OpenEXR MODULES tbb OpenEXR FLAGS -lembree3 -ldl)
 

@@ -64,7 +64,8 @@ bool allows(const OptionDomain& domain, const OptionValue& value) {
                  [&](const IntegerChoice& d) { return integer && holds(d.values, *integer); },
                  [&](const RealRange& d) {
                    if (word) return holds(d.words, *word);
-                   return real && *real <= d.high && (d.low_included ? *real >= d.low : *real > d.low);
+                   return real && std::isfinite(*real) && *real <= d.high &&
+                          (d.low_included ? *real >= d.low : *real > d.low);
                  },
                  [&](const WordChoice& d) { return word && holds(d.words, *word); }},
       domain);
@@ -114,8 +115,7 @@ OptionValue OptionSchema::parse(std::string_view text) const {
   } else {
     value = std::string(text);
   }
-  if (!value || !allows(domain, *value) ||
-      (std::holds_alternative<double>(*value) && !std::isfinite(std::get<double>(*value))))
+  if (!value || !allows(domain, *value))
     throw UsageError("option " + name + ": '" + std::string(text) + "' is not allowed; give " + allowed());
   return *value;
 }

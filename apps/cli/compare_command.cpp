@@ -46,11 +46,24 @@ void check(const Arguments& arguments) {
   }
 }
 
+nlohmann::json to_json(const ErrorFigures& figures) {
+  return {{"pixels", figures.pixels},
+          {"rmse", figures.rmse},
+          {"rmse_low", figures.rmse_low},
+          {"rmse_high", figures.rmse_high},
+          {"mse", figures.mse},
+          {"mean", figures.mean},
+          {"mean_absolute", figures.mean_absolute},
+          {"median_absolute", figures.median_absolute},
+          {"p99_absolute", figures.p99_absolute},
+          {"max_absolute", figures.max_absolute}};
+}
+
 nlohmann::json to_json(const Arguments& arguments, const Comparison& comparison) {
   nlohmann::json report = {
-      {"image", arguments.image.string()},        {"reference", arguments.scene.path.string()},
-      {"all", penumbra::to_json(comparison.all)}, {"penumbra", penumbra::to_json(comparison.in_penumbra)},
-      {"skipped_pixels", comparison.skipped},     {"difference_scale", difference_scale(comparison)}};
+      {"image", arguments.image.string()},    {"reference", arguments.scene.path.string()},
+      {"all", to_json(comparison.all)},       {"penumbra", to_json(comparison.in_penumbra)},
+      {"skipped_pixels", comparison.skipped}, {"difference_scale", difference_scale(comparison)}};
   if (arguments.judged.object) report["object"] = *arguments.judged.object;
   if (!arguments.judged.light.empty()) report["light"] = arguments.judged.light;
   if (comparison.samples == 0) return report;

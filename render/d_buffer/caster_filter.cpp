@@ -6,29 +6,28 @@
 
 namespace penumbra::detail {
 
-bool shows_only_fronts(const CasterRange& caster, const glm::mat3& axes, const glm::vec3& offset) {
+bool shows_only_fronts(const CasterRange& caster, const DBufferView& view) {
   if (!caster.closed) return false;
   for (int corner = 0; corner < 8; ++corner) {
     const Bounds& b = caster.bounds;
     const glm::vec3 p(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
                       corner & 4 ? b.high.z : b.low.z);
-    if ((axes * p + offset).z <= static_cast<float>(kNearDepth)) return false;
+    if ((view.axes * p + view.offset).z <= static_cast<float>(kNearDepth)) return false;
   }
   return true;
 }
 
-std::vector<std::uint32_t> triangles_before_hidden(std::span<const glm::vec3> points,
-                                                   std::span<const std::uint32_t> indices,
-                                                   std::span<const CasterRange> casters,
-                                                   const glm::mat3& axes, const glm::vec3& offset,
+std::vector<std::uint32_t> triangles_before_hidden(const CasterTriangles& casters, const DBufferView& view,
                                                    const ReceiverGrid& receivers) {
-  std::vector<glm::vec3> local(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(),
-                    [&](std::size_t i) { local[i] = axes * points[i] + offset; });
+  const std::vector<std::uint32_t>& indices = casters.indices;
+  std::vector<glm::vec3> in_light_frame(casters.points.size());
+  tbb::parallel_for(std::size_t{0}, in_light_frame.size(),
+                    [&](std::size_t i) { in_light_frame[i] = view.axes * casters.points[i] + view.offset; });
   std::vector<char> needed(indices.size() / 3);
   const auto needs = [&](std::size_t triangle, bool only_fronts) {
-    const glm::vec3 p[3] = {local[indices[3 * triangle]], local[indices[3 * triangle + 1]],
-                            local[indices[3 * triangle + 2]]};
+    const std::uint32_t* corners = &indices[3 * triangle];
+    const glm::vec3 p[3] = {in_light_frame[corners[0]], in_light_frame[corners[1]],
+                            in_light_frame[corners[2]]};
     if (only_fronts && glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[0]) > 0.0f) return false;
     UvBounds bounds;
     for (const glm::vec3& q : p) {
@@ -37,9 +36,9 @@ std::vector<std::uint32_t> triangles_before_hidden(std::span<const glm::vec3> po
     }
     return receivers.least_weight(SupportKind::kUmbra, bounds) != ReceiverGrid::kNone;
   };
-  for (const CasterRange& c : casters) {
-    if (c.idle) continue;
-    const bool only_fronts = shows_only_fronts(c, axes, offset);
+  for (const CasterRange& c : casters.ranges) {
+    if (c.cannot_occlude) continue;
+    const bool only_fronts = shows_only_fronts(c, view);
     tbb::parallel_for(c.first_index / 3, (c.first_index + c.index_count) / 3,
                       [&](std::uint32_t i) { needed[i] = needs(i, only_fronts); });
   }

@@ -1,37 +1,23 @@
-// Which casters' triangles the D-buffer's last surface needs.
+// Which triangles of casters are drawn into the D-buffer's last surface (step 5).
 #pragma once
 
 #include <cstdint>
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
-#include <span>
 #include <vector>
 
-#include "penumbra/mesh/triangle_mesh.h"
+#include "render/d_buffer/casters.h"
 #include "render/d_buffer/entries/receiver_grid.h"
+#include "render/d_buffer/view.h"
 
 namespace penumbra::detail {
 
-/// One caster's place in the uploaded buffers.
-struct CasterRange {
-  std::uint32_t first_face;  ///< number of its first face over all objects of the scene
-  std::uint32_t first_index, index_count;
-  bool closed;
-  Bounds bounds;      ///< in the frame of the uploaded points
-  bool idle = false;  ///< hides nothing from any receiver: not drawn
-};
+/// Whether the light's center sees only faces of the caster that are turned to it: the caster is closed, and the light's
+/// plane does not cut it open. Cost O(1).
+bool shows_only_fronts(const CasterRange& caster, const DBufferView& view);
 
-/// Whether the light's center sees only faces that are turned to it: the caster has an inside and is not cut
-/// open by the light's plane.
-bool shows_only_fronts(const CasterRange& caster, const glm::mat3& axes, const glm::vec3& offset);
-
-/// Triangles that lie before receivers which do not see the light's center; of a caster that shows only
-/// fronts, those that face the center. Points are in the frame that axes and offset turn into the light's;
-/// three indices a triangle. Cost O(points + triangles), on all cores.
-std::vector<std::uint32_t> triangles_before_hidden(std::span<const glm::vec3> points,
-                                                   std::span<const std::uint32_t> indices,
-                                                   std::span<const CasterRange> casters,
-                                                   const glm::mat3& axes, const glm::vec3& offset,
+/// The triangles that may lie before a receiver that does not see the light's center; only these are read. Of a caster
+/// that shows only fronts those that face the center. Out: indices as in `casters`, three a triangle. Casters that cannot
+/// occlude are left out. Cost O(points + triangles), on all cores.
+std::vector<std::uint32_t> triangles_before_hidden(const CasterTriangles& casters, const DBufferView& view,
                                                    const ReceiverGrid& receivers);
 
 }  // namespace penumbra::detail

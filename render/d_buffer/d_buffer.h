@@ -1,17 +1,33 @@
-// The D-buffer: what the light's center sees of penumbra boundaries, and the visibility shader that reads it.
+// The D-buffer: what the light's center sees of shadow boundaries, and a visibility shader that reads it.
 //
-// In: caster meshes (uploaded once), surface points (uploaded once per camera), a light. Out: visibility per
-// pixel. "Umbra and penumbra volumes" (2004), sections 3 and 4. There a texel stores the distances |cxo|,
-// |cxuv|, |cxpv| and |cxs|; here it stores the occluder's face and depth and *which edge* bounds the penumbra
-// on that line of sight, so that the chord it leaves of the disk is exact for the receiver (no eq. 2 and 3;
-// the distances are an option). The edges next to it are known: the boundary is followed as far as it lies in
-// the disk. Facets are drawn in (1/z)-linear depth and dilated by a texel, so that no texel that touches the
-// penumbra is empty (towards the border of a hemicube's side by less than one).
+// In: the scene's casters (uploaded once), surface points (uploaded once per camera), a disk light. Out: visibility V
+// of every surface point. "Umbra and penumbra volumes" (2004), sections 3 and 4. The steps of a frame, in order, with the stage of --stats that they are timed as:
+//
+//   1 center       center_rays.h            a ray from every surface point to the light's center
+//   2 receivers    receivers/occluding_casters.h which casters cannot occlude: they take no part
+//   3 receivers    view.h, entries/targets.h, entries/receiver_grid.h
+//                                           perspectives from the light's center; which texels will be read
+//   4 classify, silhouettes, supports, reach, corners, facets
+//                  boundaries.h, entries/   facets, cone sectors and gap faces of the boundaries, as triangles
+//   5 occluders    fill_passes.h            first and last surface, drawn while step 4 runs
+//   6 entries      fill_passes.h            the triangles of step 4, drawn while entries/tiles.h chooses what of the image
+//                                           step 7 visits
+//   7 visibility   visibility_pass.h        the shader: texel → entry → chord or boundary on the disk → V
+//   8 visibility   resampler.h              pixels whose entries contradict each other are sampled by rays
+//
+// What a texel keeps. The paper's texel has the distances |cxo|, |cxuv|, |cxpv| and |cxs|. Here it has the occluder's
+// face and depth and *which edge* bounds the penumbra on that line of sight. So the chord that the edge cuts off the
+// disk is exact for every receiver, and eq. 2 and 3 are not needed (the paper prints eq. 2 inverted and the branches of
+// eq. 3 swapped); the paper's own contents, corrected, are an option. Neighbors of an edge are known too: the shader follows
+// the boundary as far as it lies in the disk.
+//
+// Other departures. Depths are 1/z, which is linear on the screen (the paper interpolates distances and accepts the
+// error). Triangles are dilated by a texel, so that no texel that touches a penumbra is empty (towards the border of a
+// hemicube's side by less than one). Step 1 replaces the paper's shadow map, and steps 2, 3 and 8 are not in the paper.
 #pragma once
 
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "penumbra/mesh/progress.h"
@@ -26,31 +42,31 @@
 
 namespace penumbra {
 
+/// What a texel keeps of a boundary.
 enum class DBufferContents {
-  kEdge,       ///< which edge bounds the penumbra: the chord is exact for every receiver
+  kEdge,       ///< which edge it starts from: the chord is exact for every receiver
   kDistances,  ///< the 2004 paper's |cxuv|, |cxpv| and |cxs|, with eq. 2 and 3 corrected
 };
+/// Visibility as a function of the chord.
 enum class VisibilityCurve {
-  kExact,       ///< the disk's area beyond the chord; with kEdge, beyond the boundary of which it is part
+  kExact,  ///< the disk's area beyond the chord; with kEdge beyond the boundary that the chord is part of
   kSmoothstep,  ///< 3t² - 2t³ (the paper's eq. 4), t = (1 + δ)/2; off by up to 0.039
   kSquareRoot,  ///< √t (the paper's section 6.2, for small occluders)
 };
+/// How it is decided whether a receiver sees the light's center.
 enum class CenterTest {
-  kRay,    ///< one ray a pixel: right for every receiver
-  kDepth,  ///< the depth of the first surface in the texel, with a bias in the height above the receiver's
-           ///< plane
+  kRay,  ///< one ray a pixel: right for every receiver
+  kDepth,  ///< the depth of the first surface in the texel, with a bias along the receiver's normal (as the paper)
 };
+/// What is done about entries that contradict each other. Only with kEdge, kExact and kRay; else nothing is done.
 enum class EntryCheck {
-  kRays,  ///< sixteen rays a pixel where neighbours on one surface contradict each other (a step of more than
-          ///< .07 that no slope explains), where an entry contradicts what is known of the light's center,
-          ///< and at even distances; they replace what entries say by more than their noise otherwise.
-          ///< Against leaks, penumbrae of edges that something else hides, seams between a texel's entries,
-          ///< and surfaces on which all entries are wrong.
+  kRays,  ///< some pixels are sampled by sixteen rays, see resampler.h
   kNone,
 };
-enum class Conflict { kNearest, kFurthest };  ///< which of several entries on a line of sight a texel keeps
+/// Which of several entries on a line of sight a texel keeps.
+enum class Conflict { kNearest, kFurthest };
 
-/// The words for these.
+/// The words for these, as in the options of the command line and in --stats.
 std::span<const NamedValue<DBufferContents>> d_buffer_contents();
 std::span<const NamedValue<VisibilityCurve>> visibility_curves();
 std::span<const NamedValue<Conflict>> conflicts();
@@ -58,44 +74,47 @@ std::span<const NamedValue<CenterTest>> center_tests();
 std::span<const NamedValue<EntryCheck>> entry_checks();
 
 struct DBufferOptions {
-  int size = 0;  ///< texels a side of each target, 16 to 8192; 0: d_buffer_size_for the image
+  /// Texels a side of each target, 16 to 8192; 0: d_buffer_size_for the image.
+  int size = 0;
   DBufferContents contents = DBufferContents::kEdge;
-  int entries = 1;  ///< entries kept per texel and kind of boundary, 1 or 2 (2: kEdge and kNearest only)
+  /// Entries kept per texel and kind of boundary, 1 or 2. 2 needs kEdge and kNearest.
+  int entries = 1;
   VisibilityCurve curve = VisibilityCurve::kExact;
   Conflict conflict = Conflict::kNearest;
-  CenterTest center = CenterTest::kRay;  ///< how it is told whether the light's center is hidden
-  EntryCheck check =
-      EntryCheck::kRays;  ///< what is done about entries that contradict each other; with kEdge, kExact, kRay
+  CenterTest center = CenterTest::kRay;
+  EntryCheck check = EntryCheck::kRays;
 };
 
 /// Texels a side that are about as many as the image's pixels: the root of their number, up to the next
-/// multiple of 64, 512 to 4096. More shows in few scenes (README), and rasterisation grows with the area.
+/// multiple of 64, 512 to 4096. More shows in few scenes (README), and the time to draw grows with the area.
 int d_buffer_size_for(int width, int height);
 
 struct DBufferFrame {
-  std::vector<float> visibility;  ///< one per pixel of the surface buffer; 1 where nothing is seen
+  /// One a receiver; 1 where nothing is seen.
+  std::vector<float> visibility;
   std::vector<StageTime> stages;
-  Counts counts;  ///< faces by class, edges, facets, triangles drawn, targets, bytes
+  /// Faces by class, edges, facets, triangles drawn, targets, pixels sampled by rays, texels a side, bytes.
+  Counts counts;
 };
 
+/// A D-buffer kept between frames: textures, programs and what depends on casters or camera alone are made once.
 class DBuffer {
  public:
-  /// Uploads the casters. `context`, `scene` and `rays` must outlive the D-buffer; the context is made
-  /// current by each call.
+  /// Uploads the casters. `context`, `scene` and `rays` must outlive the D-buffer, and the casters stay as they are; the
+  /// context is made current by each call. Cost O(vertices + faces). Throws SystemError where OpenGL fails.
   DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~DBuffer();
-  /// The receivers, once per camera; copied. Cost O(pixels).
+  /// The receivers, pixels of a picture with normals: once per camera, before `render`. They are copied. Cost O(pixels). Throws SystemError.
   void set_surface(const Receivers& surface);
-  /// All that depends on the light is rebuilt: classes, silhouettes, facets, buffers, visibility; the first
-  /// three are kept while the light stays as it is. Throws UsageError for a size or entries outside their
-  /// range and before set_surface, SystemError where OpenGL fails, Cancelled. Cost O(faces + band + texels +
-  /// pixels), and one or two rays a pixel with CenterTest::kRay, and sixteen where entries contradict each
-  /// other with EntryCheck::kRays.
+  /// Visibility of the receivers under `light`. Outlines of casters are kept while the light stays, everything else is
+  /// made anew; a frame never depends on the frames before it. Throws UsageError for a size or entries outside their
+  /// range and before set_surface, SystemError where OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), one
+  /// ray a pixel with CenterTest::kRay, and sixteen for each pixel that is resampled.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
-  /// The next frame finds everything anew, though its light be that of the last: for timing.
+  /// The next frame finds outlines anew even if the light stays: for timing.
   void forget_light();
   /// What the last frame left in the textures of the first target: the first surface, penumbra entries, umbra
-  /// entries before and behind the last surface; none that are empty. Each by number, one grey a number, and
+  /// entries before and behind the last surface; none that are empty. Each by number, one gray a number, and
   /// by depth, what is nearer to the light brighter.
   std::vector<TexturePicture> textures() const;
 

@@ -7,13 +7,13 @@
 namespace penumbra::detail {
 namespace {
 
-/// Numbers differ from their neighbours' by a grey that can be told apart; 0 stays 0.
-std::uint8_t grey_of(std::uint32_t number) {
+/// Numbers differ from their neighbors' by a gray that can be told apart; 0 stays 0.
+std::uint8_t gray_of(std::uint32_t number) {
   return number ? static_cast<std::uint8_t>(56u + (number * 2654435761u >> 16) % 200u) : std::uint8_t{0};
 }
 
 /// Depths where there is a number. They fall with the distance from the light.
-std::vector<std::uint8_t> greys_of(std::span<const std::uint32_t> numbers, std::span<const float> depths) {
+std::vector<std::uint8_t> grays_of(std::span<const std::uint32_t> numbers, std::span<const float> depths) {
   float low = 1.0f, high = 0.0f;
   for (std::size_t i = 0; i < depths.size(); ++i)
     if (numbers[i]) low = std::min(low, depths[i]), high = std::max(high, depths[i]);
@@ -49,9 +49,9 @@ std::vector<TexturePicture> pictures_of(const gl::Functions& gl, const DBufferLa
     // The first surface is not drawn for every option.
     if (std::ranges::all_of(numbers, [](std::uint32_t number) { return number == 0; })) continue;
     TexturePicture picture{each.name, size, {}};
-    for (const std::uint32_t number : numbers) picture.values.push_back(grey_of(number));
+    for (const std::uint32_t number : numbers) picture.values.push_back(gray_of(number));
     pictures.push_back(std::move(picture));
-    pictures.push_back({"its depth", size, greys_of(numbers, depths)});
+    pictures.push_back({"its depth", size, grays_of(numbers, depths)});
   }
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
   gl::require_no_error(gl, "reading the D-buffer");

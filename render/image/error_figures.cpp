@@ -102,17 +102,4 @@ std::vector<std::uint32_t> true_penumbra(std::span<const float> reference1, std:
   return pixels;
 }
 
-nlohmann::json to_json(const ErrorFigures& figures) {
-  return {{"pixels", figures.pixels},
-          {"rmse", figures.rmse},
-          {"rmse_low", figures.rmse_low},
-          {"rmse_high", figures.rmse_high},
-          {"mse", figures.mse},
-          {"mean", figures.mean},
-          {"mean_absolute", figures.mean_absolute},
-          {"median_absolute", figures.median_absolute},
-          {"p99_absolute", figures.p99_absolute},
-          {"max_absolute", figures.max_absolute}};
-}
-
 }  // namespace penumbra

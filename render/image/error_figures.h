@@ -5,8 +5,8 @@
 // are independent. True penumbra is 0 < (r1 + r2)/2 < 1.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
 
@@ -20,6 +20,7 @@ struct ErrorFigures {
   double mean = 0.0;                       ///< of m - (r1 + r2)/2: positive is too bright
   double mean_absolute = 0.0;
   double median_absolute = 0.0, p99_absolute = 0.0, max_absolute = 0.0;  ///< against (r1 + r2)/2
+  friend bool operator==(const ErrorFigures&, const ErrorFigures&) = default;
 };
 
 /// `selected` lists the pixels to judge. Deterministic (the bootstrap's seed is fixed). Cost O(200 n).
@@ -28,6 +29,5 @@ ErrorFigures error_figures(std::span<const float> method, std::span<const float>
 /// Pixels of `candidates` in true penumbra.
 std::vector<std::uint32_t> true_penumbra(std::span<const float> reference1, std::span<const float> reference2,
                                          std::span<const std::uint32_t> candidates);
-nlohmann::json to_json(const ErrorFigures& figures);
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
 // Prefilter 1 of 3: the mipmap pyramid, read trilinearly.
 //
 // "Occlusion textures" (2006), section 3.2. Each level averages 2 × 2 texels of the one before; a kernel of
-// side s reads the two levels next to log2 s. The cheapest, and blocky: texels that are neighbours are
+// side s reads the two levels next to log2 s. The cheapest, and blocky: texels that are neighbors are
 // averaged together only far up. Levels are 16-bit, where the paper's are 8-bit.
 #pragma once
 

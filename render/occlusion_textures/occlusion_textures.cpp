@@ -124,7 +124,7 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Rec
                                       std::vector<float>& visibility) const {
   visibility.assign(surface.size(), 1.0f);
   using detail::SliceReceivers;
-  // Neighbours in both directions look at the same texels.
+  // Neighbors in both directions look at the same texels.
   const auto tile = [&](int left, int top) {
     SliceReceivers receivers;
     std::array<std::size_t, SliceReceivers::kMost> pixels;

@@ -34,7 +34,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   try {
     const penumbra::LoadedScene loaded = penumbra::load_scene(file);
-    if (!(loaded.scene.light.radius >= 0.0)) std::abort();
+    if (!(penumbra::disk_around(loaded.scene.lights.at(0).shape).radius >= 0.0)) std::abort();
   } catch (const penumbra::SceneError&) {
   } catch (const penumbra::MeshError&) {
   }

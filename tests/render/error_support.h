@@ -1,7 +1,7 @@
 // Error figures of visibility, in tests.
 #pragma once
 
-#include "render/image/error_figures.h"
+#include "penumbra/render/image/error_figures.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra::testing {

@@ -17,8 +17,10 @@
 #include "penumbra/render/image/error_figures.h"
 #include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/scene/scene.h"
+#include "penumbra/render/support/counts.h"
 #include "render/light/disk_area.h"
 #include "render/rays/reference.h"
+#include "tests/render/visibility_support.h"
 
 namespace penumbra::testing {
 
@@ -58,7 +60,7 @@ inline Scene data_scene(const std::string& name) {
 /// A scene with the light's frame for a world: disk in z = 0 about the origin, light towards +z.
 inline Scene scene_in_light_frame(double radius, std::vector<TriangleMesh> casters) {
   Scene scene;
-  scene.light = {Vec3(0.0), Vec3(0, 0, 1), radius};
+  testing::light_of(scene) = {Vec3(0.0), Vec3(0, 0, 1), radius};
   for (TriangleMesh& mesh : casters) scene.objects.push_back({"caster", std::move(mesh), Vec3(0.8), true});
   return scene;
 }
@@ -118,10 +120,21 @@ inline std::uint64_t count_in(const Counts& counts, std::string_view name) {
 class View {
  public:
   View(const Scene& scene_, int width, int height, int threads = 0)
-      : scene(scene_), rays(scene_, threads), surface(make_surface_buffer(scene_, rays, width, height)) {}
+      : scene(scene_),
+        rays(scene_, threads),
+        surface(make_surface_buffer(scene_, rays, width, height)),
+        hierarchies_(scene_, rays.frame()) {}
 
   Values trace(const Pixels& pixels, int samples, std::uint64_t seed) const {
-    return trace_reference(scene, rays, surface, pixels, {.samples = samples, .seed = seed}).visibility;
+    return trace_reference(rays, scene.lights.front().shape, surface.receivers(), pixels,
+                           {.samples = samples, .seed = seed})
+        .visibility;
+  }
+  /// Under the scene's first light, which may have changed; hierarchies over edges are made once.
+  SilhouetteResult see_silhouettes(const SilhouetteOptions& options = {},
+                                   const Progress& progress = {}) const {
+    return silhouette_visibility(scene, rays, hierarchies_, light_of(scene), surface.receivers(), options,
+                                 progress);
   }
   /// Pixels of `pixels` within two of one that 64 samples find partly lit.
   Pixels near_penumbra(const Pixels& pixels) const {
@@ -141,6 +154,8 @@ class View {
   SurfaceBuffer surface;
 
  private:
+  mutable detail::EdgeHierarchies hierarchies_;
+
   std::size_t at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
            static_cast<std::size_t>(x);

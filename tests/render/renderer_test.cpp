@@ -3,8 +3,11 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
+#include "render/d_buffer/d_buffer.h"
 #include "render/gl/context.h"
 #include "render/gl/functions.h"
+#include "render/light/area_light.h"
+#include "render/occlusion_textures/occlusion_textures.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {
@@ -15,37 +18,31 @@ struct Choice {
   RenderOptions options;
 };
 
+Choice choice(const std::string& name, const std::string& method, const OptionValues& values) {
+  RenderOptions options;
+  options.method = method;
+  options.width = 120;
+  options.height = 90;
+  // The same picture in less time; what a choice sets comes first.
+  options.options = values;
+  options.options.insert({{"dbuffer-size", std::uint64_t{256}},
+                          {"texture-size", std::uint64_t{128}},
+                          {"samples", std::uint64_t{16}}});
+  return {name, options};
+}
+
 /// Methods with the settings that touch OpenGL's state most differently.
 std::vector<Choice> choices() {
-  RenderOptions base;
-  base.width = 120;
-  base.height = 90;
-  base.d_buffer.size = 256;
-  base.occlusion.texture_size = 128;
-  base.reference.samples = 16;
+  register_drawing_methods();
   std::vector<Choice> all;
-  for (const std::string& method : method_names()) {
-    base.method = method_of(method);
-    all.push_back({method, base});
-  }
-  RenderOptions paper = base;
-  paper.method = Method::kDBuffer;
-  paper.d_buffer.contents = DBufferContents::kDistances;
-  paper.d_buffer.conflict = Conflict::kFurthest;
-  paper.d_buffer.center = CenterTest::kDepth;
-  all.push_back({"dbuffer of the paper", paper});
-  RenderOptions two = base;
-  two.method = Method::kDBuffer;
-  two.d_buffer.entries = 2;
-  two.d_buffer.size = 128;
-  all.push_back({"dbuffer of two entries", two});
-  RenderOptions fixed = base;
-  fixed.method = Method::kOcclusionTextures;
-  fixed.occlusion.slices = 4;
-  fixed.occlusion.thin_fix = ThinFix::kOn;
-  fixed.occlusion.coverage = SliceCoverage::kArea;
-  fixed.occlusion.faces = SliceFaces::kAll;
-  all.push_back({"occlusion textures with every fix", fixed});
+  for (const MethodInfo& method : methods()) all.push_back(choice(method.name, method.name, {}));
+  all.push_back(choice("dbuffer of the paper", "dbuffer",
+                       {{"dbuffer", "distances"}, {"conflict", "furthest"}, {"dbuffer-center", "depth"}}));
+  all.push_back(choice("dbuffer of two entries", "dbuffer",
+                       {{"dbuffer-entries", std::uint64_t{2}}, {"dbuffer-size", std::uint64_t{128}}}));
+  all.push_back(choice(
+      "occlusion textures with every fix", "occlusion-textures",
+      {{"slices", std::uint64_t{4}}, {"thin-fix", "on"}, {"coverage", "area"}, {"slice-faces", "all"}}));
   return all;
 }
 
@@ -55,11 +52,11 @@ TEST(Renderer, MethodsThatShareItDoNotChangeEachOther) {
   const std::vector<Choice> all = choices();
   std::vector<std::map<std::string, std::vector<float>>> fresh;
   for (const Choice& each : all) fresh.push_back(render(scene, each.options).image.channels);
-  Renderer shared(scene, all.front().options);
+  Renderer shared(scene);
   for (std::size_t a = 0; a < all.size(); ++a)
     for (std::size_t b = 0; b < all.size(); ++b) {
-      shared.render_frame(all[a].options);
-      EXPECT_EQ(shared.render_frame(all[b].options).image.channels, fresh[b])
+      shared.render(all[a].options);
+      EXPECT_EQ(shared.render(all[b].options).image.channels, fresh[b])
           << all[b].name << " after " << all[a].name;
     }
 }
@@ -69,19 +66,19 @@ TEST(Renderer, FramesCanBeCancelledAnywhere) {
   const Scene scene = testing::data_scene("torus-medium");
   for (Choice each : choices()) {
     const auto fresh = render(scene, each.options).image.channels;
-    Renderer renderer(scene, each.options);
+    Renderer renderer(scene);
     int asked = 0, stopped = 0;
     for (int stop_at = 1; stop_at <= asked + 1 && stop_at < 40; ++stop_at) {
       int calls = 0;
       each.options.progress = [&](double) { return ++calls < stop_at; };
       try {
-        renderer.render_frame(each.options);
+        renderer.render(each.options);
       } catch (const Cancelled&) {
         ++stopped;
       }
       asked = std::max(asked, calls);
       each.options.progress = nullptr;
-      EXPECT_EQ(renderer.render_frame(each.options).image.channels, fresh) << each.name << ", " << stop_at;
+      EXPECT_EQ(renderer.render(each.options).image.channels, fresh) << each.name << ", " << stop_at;
     }
     EXPECT_GE(stopped, 2) << each.name;
   }
@@ -128,47 +125,105 @@ TEST(Renderer, MethodsLeaveTheContextAsItWas) {
   const std::vector<GLint> before = state_of(context->functions());
   const Scene scene = testing::data_scene("torus-medium");
   const testing::View view(scene, 60, 45);
-  for (const Choice& each : choices()) {
-    if (each.options.method == Method::kDBuffer) {
-      DBuffer buffer(*context, scene, view.rays);
-      buffer.set_surface(view.surface);
-      buffer.render(scene.light, each.options.d_buffer);
-    } else if (each.options.method == Method::kOcclusionTextures) {
-      OcclusionTextures textures(*context, scene, view.rays);
-      textures.render(area_light(scene), view.surface, each.options.occlusion);
-    } else {
-      continue;
+  const LightShape& light = scene.lights.front().shape;
+  {
+    DBuffer buffer(*context, scene, view.rays);
+    buffer.set_surface(view.surface.receivers());
+    for (const DBufferOptions& options : {DBufferOptions{.size = 256},
+                                          DBufferOptions{.size = 256,
+                                          .contents = DBufferContents::kDistances,
+                                          .conflict = Conflict::kFurthest,
+                                          .center = CenterTest::kDepth},
+                                          DBufferOptions{.size = 128, .entries = 2}}) {
+      buffer.render(testing::light_of(scene), options);
+      EXPECT_EQ(state_of(context->functions()), before) << "D-buffer of " << options.entries << " entries";
     }
-    EXPECT_EQ(state_of(context->functions()), before) << each.name;
+  }
+  OcclusionTextures textures(*context, scene, view.rays);
+  for (const OcclusionOptions& options :
+       {OcclusionOptions{.texture_size = 128}, OcclusionOptions{.slices = 4,
+                                               .texture_size = 128,
+                                               .thin_fix = ThinFix::kOn,
+                                               .coverage = SliceCoverage::kArea,
+                                               .faces = SliceFaces::kAll}}) {
+    textures.render(area_light(light), view.surface.receivers(), options);
+    EXPECT_EQ(state_of(context->functions()), before)
+        << "occlusion textures of " << options.slices << " slices";
   }
 }
 
-// What is kept of the frame before changes no bit either, whatever came between.
-TEST(Renderer, WhatIsReusedChangesNothing) {
+// What is kept of the frame before changes no bit either, whatever came between: a renderer finds by itself
+// what has changed.
+TEST(Renderer, WhatIsKeptChangesNothing) {
   Scene scene = testing::data_scene("torus-medium");
-  Renderer keeping(scene, choices().front().options);
-  const auto expect_same = [&](const Choice& each) {
-    RenderOptions options = each.options;
-    const auto fresh = render(scene, options).image.channels;
-    options.reuse = true;
-    EXPECT_EQ(keeping.render_frame(options).image.channels, fresh) << each.name;
+  Renderer keeping(scene);
+  const auto expect_same = [&](const Choice& each, const char* after) {
+    EXPECT_EQ(keeping.render(each.options).image.channels, render(scene, each.options).image.channels)
+        << each.name << ", " << after;
   };
-  for (const Choice& each : choices()) expect_same(each);
-  for (Choice each : choices()) {
+  const std::vector<Choice> all = choices();
+  for (const Choice& each : all) expect_same(each, "new");
+  for (Choice each : all) {
     each.options.width = 100;
-    expect_same(each);
+    expect_same(each, "another size");
   }
   scene.camera.eye.y += 0.3;
-  for (const Choice& each : choices()) expect_same(each);
-  scene.light.radius *= 1.5;
-  for (const Choice& each : choices()) {
-    RenderOptions options = each.options;
-    options.reuse = true;
-    keeping.render_frame(options);  // the same rays' frame: no bits are promised, but nothing stale may stay
+  keeping.set_camera(scene.camera);
+  for (const Choice& each : all) expect_same(each, "another camera");
+  // A radius leaves the frame of rays alone, a place does not.
+  testing::light_of(scene).radius *= 1.5;
+  keeping.set_light(0, scene.lights[0]);
+  for (const Choice& each : all) expect_same(each, "another radius");
+  testing::light_of(scene).center.x += 0.2;
+  keeping.set_light(0, scene.lights[0]);
+  for (const Choice& each : all) expect_same(each, "another place");
+  testing::light_of(scene).center.x -= 0.2;
+  keeping.set_light(0, scene.lights[0]);
+  for (const Choice& each : all) expect_same(each, "the place before");
+  keeping.forget();
+  for (const Choice& each : all) expect_same(each, "all forgotten");
+}
+
+// Rays of an earlier light's frame: not the same bits, but no shadow of the earlier light either.
+TEST(Renderer, DraftsFollowTheLight) {
+  Scene scene = testing::data_scene("torus-medium");
+  for (Choice each : choices()) {
+    Renderer keeping(scene);
+    keeping.render(each.options);
+    Scene moved = scene;
+    testing::light_of(moved).center.x += 0.2;
+    const testing::Values before = render(scene, each.options).image.at("visibility"),
+                          after = render(moved, each.options).image.at("visibility");
+    keeping.set_light(0, moved.lights[0]);
+    each.options.draft = true;
+    const testing::Values draft = keeping.render(each.options).image.at("visibility");
+    std::size_t moved_pixels = 0, wrong = 0;
+    for (std::size_t i = 0; i < draft.size(); ++i) {
+      moved_pixels += std::abs(before[i] - after[i]) > 0.02f;
+      wrong += std::abs(draft[i] - after[i]) > 0.02f;
+    }
+    if (each.name != "none") {
+      EXPECT_GT(moved_pixels, 100u) << each.name;
+    }
+    EXPECT_LE(wrong, draft.size() / 200) << each.name;
+    each.options.draft = false;
+    EXPECT_EQ(keeping.render(each.options).image.at("visibility"), after) << each.name;
   }
-  scene.light.center.x += 0.2;
-  keeping.follow_light(choices().front().options);
-  for (const Choice& each : choices()) expect_same(each);
+}
+
+TEST(Renderer, RefusesWhatItsSceneDoesNotHave) {
+  Scene scene = testing::data_scene("cube-small");
+  Renderer renderer(scene);
+  EXPECT_THROW(renderer.set_light(1, scene.lights[0]), UsageError);
+  EXPECT_THROW(renderer.shade_again({testing::Values(16, 1.0f)}), UsageError) << "no picture yet";
+  scene.lights.clear();
+  EXPECT_THROW(Renderer{scene}, UsageError);
+  RenderOptions options;
+  options.method = "no such method";
+  EXPECT_THROW(renderer.render(options), UsageError);
+  options.method = "reference";
+  options.options = {{"samples", std::uint64_t{0}}};
+  EXPECT_THROW(renderer.render(options), UsageError);
 }
 
 }  // namespace

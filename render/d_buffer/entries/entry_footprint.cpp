@@ -104,7 +104,7 @@ void EntryFootprints::grow(std::array<Uvw, 3>& corners) const {
 }
 
 /// A hemicube's texel covers more of (u, v) towards the horizon: 1 + |uv| times as much across, and more
-/// along the radius; the smaller factor is taken, since too wide a facet hides its neighbours.
+/// along the radius; the smaller factor is taken, since too wide a facet hides its neighbors.
 double EntryFootprints::dilation(const glm::dvec2& uv) const {
   return options_.dilation * (options_.grows_with_uv ? 1.0 + glm::length(uv) : 1.0);
 }

@@ -88,7 +88,7 @@ std::vector<glm::vec2> tiles_with_entries(const ImageReceivers& image, const Rec
     return 2.0f * pixel / glm::vec2(image.width, image.height) - 1.0f;
   };
   for (int y = 0; y < rows; ++y)
-    for (int x = 0; x < columns; ++x) {  // neighbours in a row are one rectangle
+    for (int x = 0; x < columns; ++x) {  // neighbors in a row are one rectangle
       const int first = x;
       while (x < columns && matters[static_cast<std::size_t>(y * columns + x)]) ++x;
       if (x > first) add_rectangle(clip(first, y), clip(x, y + 1), out);

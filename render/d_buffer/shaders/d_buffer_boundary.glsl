@@ -1,4 +1,4 @@
-// A boundary of the shadow as the receiver sees it on the disk: from the edge of an entry on to its neighbours' edges, as
+// A boundary of the shadow as the receiver sees it on the disk: from the edge of an entry on to its neighbors' edges, as
 // far as they lie in the disk. Exact for one line of edges, convex or not, and for one that closes within the disk.
 // Needs disk_area.glsl and d_buffer_lookup.glsl.
 

@@ -27,7 +27,7 @@ uniform usampler2DArray first_entry;
 uniform sampler2DArray first_depth;
 uniform samplerBuffer records;
 
-// Whether two facets are one, or neighbours at a corner: the visibility of the first knows of the second already.
+// Whether two facets are one, or neighbors at a corner: the visibility of the first knows of the second already.
 bool linked(uint one, uint two) {
   uint previous = uint(texelFetch(records, int(4u * one)).w + 0.5);
   uint next = uint(texelFetch(records, int(4u * one) + 3).w + 0.5);

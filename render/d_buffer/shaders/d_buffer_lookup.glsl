@@ -40,7 +40,7 @@ struct Receiver {
 
 struct Texel {
   ivec3 at;         // column, row, target; target < 0: none
-  vec3 direction;   // of its centre from the light's center, of length 1 along the target's axis
+  vec3 direction;   // of its center from the light's center, of length 1 along the target's axis
   float size;       // of a texel, at that distance
 };
 
@@ -62,8 +62,8 @@ Texel texel_of(vec3 x) {
   vec2 slack = target_count > 1 ? 0.5 / count : vec2(0.0);  // where two targets meet, rounding must not fall between
   bool outside = target_count == 0 || any(lessThan(at, -slack)) || any(greaterThanEqual(at, 1.0 + slack));
   ivec2 texel = ivec2(clamp(at * count, vec2(0.0), count - 1.0));
-  vec3 centre = vec3(w.xz + (vec2(texel) + 0.5) / count * size, 1.0);
-  return Texel(ivec3(texel, outside ? -1 : best), transpose(target_axes[best]) * centre, max(size.x, size.y) / count.x);
+  vec3 center = vec3(w.xz + (vec2(texel) + 0.5) / count * size, 1.0);
+  return Texel(ivec3(texel, outside ? -1 : best), transpose(target_axes[best]) * center, max(size.x, size.y) / count.x);
 }
 
 // 1/z of what a depth texture holds at the texel: depth is near · weight / forward, and a texel's direction has forward 1

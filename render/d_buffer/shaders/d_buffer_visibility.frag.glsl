@@ -1,7 +1,13 @@
 #version 450 core
-// Second pass of shading: visibility of the disk by the D-buffer's entries, at the pixels that the first pass chose.
-// CONTENTS 0: edges, kDistances: the 2004 paper's distances. CURVE, visibility of the parameter t: 0 exact, kSmoothstep,
-// kSquareRoot. ENTRIES: 1 or 2 are kept.
+// D-buffer step 7, second pass: visibility of the disk by the D-buffer's entries, at the pixels that the first pass marked.
+// "Umbra and penumbra volumes" (2004), section 4.
+//
+// Defined from outside (visibility_pass.cpp):
+//   TARGETS   number of targets
+//   CONTENTS  what a texel keeps: 0 edges, kDistances the paper's distances
+//   CURVE     visibility of the parameter t: 0 exact, kSmoothstep, kSquareRoot
+//   ENTRIES   1 or 2 are kept
+//   UNCERTAIN_OFFSET  what the output is greater by than V where an entry contradicts what is known of the disk's center
 #include "disk_area.glsl"
 #include "d_buffer_lookup.glsl"
 #include "d_buffer_boundary.glsl"
@@ -10,7 +16,7 @@ const int kDistances = 1;
 const int kSmoothstep = 1, kSquareRoot = 2;
 
 layout(early_fragment_tests) in;
-layout(location = 0) out float visibility;
+layout(location = 0) out float visibility;  // V, or V + UNCERTAIN_OFFSET
 
 // Area fraction of a half-plane, or one of the paper's approximations of it; t = (1 + δ)/2.
 float curve_of(float delta) {
@@ -45,10 +51,9 @@ struct Share {
   float visibility;  // -1: the entry says nothing about this receiver
   Chord chord;
   bool has_other;    // edge: it is part of the same boundary
-  bool doubtful;     // it contradicts what is known of the disk's center
+  bool uncertain;    // it contradicts what is known of the disk's center
 };
 const Share kNoShare = Share(-1.0, kWholeDisk, false, false);
-const float kDoubt = 2.0;  // added to a visibility that rays should be asked about
 
 // Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what is
 // known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
@@ -66,9 +71,9 @@ Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
     if (agrees) return Share(clamp(past.area, 0.0, 1.0), chord, past.met, false);
   }
   float agreed = agreeing(chord.delta, r.hidden);
-  bool doubtful = agreed != chord.delta;
+  bool uncertain = agreed != chord.delta;
   chord.delta = agreed;
-  return Share(two_half_planes_area(chord, horizon), chord, false, doubtful);
+  return Share(two_half_planes_area(chord, horizon), chord, false, uncertain);
 }
 
 // The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the same
@@ -120,6 +125,6 @@ void main() {
     visibility = r.hidden ? 0.0 : half_plane_area(horizon.delta);
   } else {
     visibility = second.visibility < 0.0 ? first.visibility : union_of(first, second, umbra);
-    if (first.doubtful || second.doubtful) visibility += kDoubt;
+    if (first.uncertain || second.uncertain) visibility += float(UNCERTAIN_OFFSET);
   }
 }

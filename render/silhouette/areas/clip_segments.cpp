@@ -21,11 +21,11 @@ double cross(const dvec2& p, const dvec2& q) {
 /// An end of a segment on its way through the cuts.
 struct End {
   dvec2 at;
-  bool on_boundary = false;  ///< now on D's boundary
-  bool on_chord = false;
+  /// Clipped, so now on D's boundary; and there on the chord.
+  bool on_boundary = false, on_chord = false;
 };
 
-/// Cuts a → b to the disk. False where nothing is left.
+/// Clips a → b to the disk. False where nothing is left.
 bool clip_to_disk(End& a, End& b) {
   const bool in_a = glm::dot(a.at, a.at) < 1.0, in_b = glm::dot(b.at, b.at) < 1.0;
   if (in_a && in_b) return true;
@@ -46,7 +46,7 @@ bool clip_to_disk(End& a, End& b) {
   return true;
 }
 
-/// Cuts what is left to the horizon's side. False where nothing is left.
+/// Clips what is left to the part above the horizon. False where nothing is left.
 bool clip_to_horizon(End& a, End& b, const Chord& horizon) {
   const double ha = height(horizon, a.at), hb = height(horizon, b.at);
   if (ha > 0.0 && hb > 0.0) return true;
@@ -69,11 +69,12 @@ double sum_of_crosses(std::span<const Segment> segments) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// The segments of a chain along its general direction and across it, in float: areas of folds need not be
+/// A chain in coordinates along its general direction and across it, in float: areas of folds need not be
 /// exact.
 class Folds {
  public:
-  static constexpr std::size_t kMost = 128;  ///< segments
+  /// Speed. The most segments. Seen in the benchmark `growth`.
+  static constexpr std::size_t kMost = 128;
   Folds(std::span<const Segment> segments, const dvec2& general)
       : blocks_((segments.size() + kFloatLanes - 1) / kFloatLanes) {
     constexpr float kNowhere = 1e30f;
@@ -93,10 +94,11 @@ class Folds {
     arrange();
   }
 
-  /// A line across the general direction meets k segments that go back and k or k + 1 others. Were it to
-  /// meet at most one, somewhere between the first and the last, no depth complexity between these would differ by more
-  /// than k + 1 ≤ 2 k jumps. Returns twice the largest distance of these times the width, for one that goes
-  /// back.
+  /// A bound of what one segment that goes back adds to the area of other depth complexities. A line across
+  /// the general direction meets k segments that go back and k or k + 1 others. Compare it with a line that
+  /// meets at most one, somewhere between the first and the last of these: no depth complexity between them
+  /// differs by more than k + 1 ≤ 2 k jumps. So the bound is twice the largest distance between the first
+  /// and the last, times the width of the segment.
   float area(std::size_t back) const {
     const float low = first_[back / kFloatLanes][back % kFloatLanes];
     const float high = last_[back / kFloatLanes][back % kFloatLanes];
@@ -111,7 +113,7 @@ class Folds {
   std::array<Floats, kMost / kFloatLanes> first_, last_, start_, slope_;
 };
 
-/// From ends to where segments begin and how they rise.
+/// Turns ends into where segments begin and how they rise along the general direction.
 PENUMBRA_VECTOR_CLONES
 void Folds::arrange() {
   constexpr float kLeastWidth = 1e-6f;
@@ -126,7 +128,8 @@ void Folds::arrange() {
   }
 }
 
-/// Between the lowest and the highest point of segments over a range.
+/// The distance between the lowest and the highest point of the chain over a range along the general
+/// direction.
 PENUMBRA_VECTOR_CLONES
 float Folds::height(float low, float high) const {
   Floats least = 1e30f - Floats{}, most = -1e30f + Floats{};
@@ -148,7 +151,7 @@ float Folds::height(float low, float high) const {
   return highest - lowest;
 }
 
-/// Of all that go back; or of so many that it is more than `most`.
+/// The sum over segments that go back; it ends where it is more than `most`.
 template <class GoesBack>
 double area_of_folds(std::span<const Segment> segments, const dvec2& general, double most,
                      const GoesBack& goes_back) {
@@ -163,6 +166,7 @@ double area_of_folds(std::span<const Segment> segments, const dvec2& general, do
 
 void clip_segments(std::span<const Segment> segments, std::size_t inside, const DiskPart& part,
                    ClippedSegments& out) {
+  // Segments inside need no clipping.
   out.segments.assign(segments.begin(), segments.begin() + static_cast<std::ptrdiff_t>(inside));
   out.events.clear();
   double sum = 0.0;
@@ -177,6 +181,8 @@ void clip_segments(std::span<const Segment> segments, std::size_t inside, const 
     changes += change;
   };
   sum += 0.5 * sum_of_crosses(out.segments);
+
+  // Clip the others.
   for (const Segment& s : segments.subspan(inside)) {
     End a{s.a}, b{s.b};
     if (!clip_to_disk(a, b)) continue;
@@ -196,6 +202,7 @@ void clip_segments(std::span<const Segment> segments, std::size_t inside, const 
 }
 
 bool is_one_chain(const ClippedSegments& clipped, double folds) {
+  // One entry and one exit, all jumps of one size; the general direction.
   if (clipped.events.size() != 2) return false;
   dvec2 general(0.0);
   const int size = std::abs(clipped.segments.empty() ? 0 : clipped.segments.front().jump);
@@ -203,6 +210,8 @@ bool is_one_chain(const ClippedSegments& clipped, double folds) {
     if (std::abs(s.jump) != size) return false;
     general += s.jump > 0 ? s.b - s.a : s.a - s.b;
   }
+
+  // No segment goes back, or those that do take up little.
   const auto goes_back = [&](const Segment& s) { return glm::dot(s.b - s.a, general) * s.jump < 0.0; };
   if (std::ranges::none_of(clipped.segments, goes_back)) return true;
   return folds > 0.0 && clipped.segments.size() <= Folds::kMost &&

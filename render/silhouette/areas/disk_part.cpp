@@ -16,7 +16,7 @@ double cross(const glm::dvec2& p, const glm::dvec2& q) {
   return p.x * q.y - p.y * q.x;
 }
 
-/// From the whole disk's lowest point.
+/// The integral of the walk along the rim from the disk's lowest point to an event.
 PENUMBRA_INLINE double walked_on_rim(const Event& e) {
   const double y = e.at.y < -1.0 ? -1.0 : e.at.y > 1.0 ? 1.0 : e.at.y, angle = arc_sine(y);
   return e.at.x < 0.0 ? 0.5 * (1.5 * kPi - angle) : 0.5 * (0.5 * kPi + angle);
@@ -27,7 +27,7 @@ void walk_rim(const Event* events, std::size_t count, double* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = walked_on_rim(events[i]);
 }
 
-/// Angle in [0, 2π).
+/// An angle of more than -2π, to [0, 2π).
 double turn(double angle) {
   return angle < 0.0 ? angle + 2.0 * kPi : angle;
 }
@@ -44,6 +44,7 @@ DiskPart::DiskPart(const Chord& horizon) : horizon_(horizon), cut_(horizon.delta
     horizon_ = no_horizon();
     return;
   }
+  // The chord.
   const glm::dvec2 n = horizon.normal;
   const double delta = horizon.delta;
   area_ = kPi * half_plane_area(delta);
@@ -52,11 +53,15 @@ DiskPart::DiskPart(const Chord& horizon) : horizon_(horizon), cut_(horizon.delta
   const glm::dvec2 a = foot + half_ * d, b = foot - half_ * d;
   chord_on_left_ = n.x > 0.0 || (n.x == 0.0 && n.y > 0.0);
   arc_start_ = std::atan2(a.y, a.x);
+
+  // Corners, and the lowest and highest point.
   middle_height_ = foot.y;
   corners_ = {a.y, b.y};
   bottom_on_arc_ = delta - n.y > 0.0;
   if (!bottom_on_arc_) bottom_ = std::min(a.y, b.y);
   if (!(delta + n.y > 0.0)) top_ = std::max(a.y, b.y);
+
+  // Where the walk begins.
   if (bottom_on_arc_)
     bottom_walk_ = from_chord_start({{0.0, -1.0}, false, 0});
   else if (chord_on_left_)
@@ -93,8 +98,8 @@ bool DiskPart::comes_first(const Event& a, const Event& b) const {
   return left ? a.at.y > b.at.y : a.at.y < b.at.y;
 }
 
-/// From the chord's start B: along the chord the integral is δ/2 times the length, along the arc half the
-/// angle.
+/// The integral of the walk from the chord's start B: δ/2 times the length along the chord, half the angle
+/// along the arc.
 double DiskPart::from_chord_start(const Event& e) const {
   if (e.on_chord) {
     const glm::dvec2 n = horizon_.normal;
@@ -103,8 +108,8 @@ double DiskPart::from_chord_start(const Event& e) const {
   return horizon_.delta * half_ + 0.5 * turn(std::atan2(e.at.y, e.at.x) - arc_start_);
 }
 
-/// Whether the walk from the chord's start comes to the event before it comes to the lowest point. Decided by
-/// the sides and heights that rows of scanlines go by, not by angles: the two must agree.
+/// Whether the walk from the chord's start meets the event before the lowest point. Decided by sides and
+/// heights, as rows of scanlines decide it, not by angles: the two must agree.
 bool DiskPart::before_bottom(const Event& e) const {
   if (!bottom_on_arc_) return chord_on_left_ && e.on_chord;
   if (e.on_chord) return true;

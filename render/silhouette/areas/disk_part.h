@@ -1,9 +1,8 @@
-// Silhouette method: the part of the disk that a receiver's horizon leaves, and its boundary.
+// Silhouette method, step clip: the part of the disk above a receiver's horizon, and its boundary.
 //
-// D = {|p| ≤ 1, n·p + δ ≥ 0}, convex; its boundary is an arc, and a chord where -1 < δ < 1. It is walked
-// counter-clockwise from D's lowest point: up the right side, down the left side. A boundary point belongs to
-// the right side where D lies to its left. `Event`s are the points where segments leave or enter D; walking
-// on, the number of hiding faces changes there by `change`.
+// D = {|p| ≤ 1, n·p + δ ≥ 0} is convex. Its boundary is an arc of the rim and, where -1 < δ < 1, a chord.
+// The boundary is walked counter-clockwise from D's lowest point: up the right side, then down the left
+// side. A point of the boundary belongs to the right side where D lies to its left.
 #pragma once
 
 #include <array>
@@ -12,50 +11,55 @@
 #include <utility>
 
 #include "render/light/disk_area.h"
+#include "render/silhouette/collect/tile_receiver.h"
 
 namespace penumbra::detail {
 
-/// n·p + δ: positive inside. The chord of a receiver whose horizon leaves the whole disk is `no_horizon`.
+/// n·p + δ: positive above the horizon.
 inline double height(const Chord& c, const glm::dvec2& p) {
   return c.normal.x * p.x + c.normal.y * p.y + c.delta;
 }
-inline Chord no_horizon() {
-  return {glm::dvec2(0.0), 2.0};
-}
 
+/// A point where a segment leaves or enters D.
 struct Event {
   glm::dvec2 at;
+  /// On the chord, else on the rim.
   bool on_chord;
+  /// By how much the number of hiding faces changes there on the walk.
   int change;
 };
 
 class DiskPart {
  public:
-  /// δ > -1.
+  /// Requires δ > -1.
   explicit DiskPart(const Chord& horizon);
 
   const Chord& horizon() const { return horizon_; }
   bool is_cut() const { return cut_; }
-  double area() const { return area_; }  ///< π for the whole disk
+  /// π for the whole disk.
+  double area() const { return area_; }
+  /// The least and the greatest height.
   double bottom() const { return bottom_; }
   double top() const { return top_; }
-  static double half_width(double y);  ///< of the unit disk
-  /// Ends of D's horizontal line at height y, the rim being ±half_width; empty where first ≥ second. With the
-  /// mean of half_width over a slab these are means of D's ends, where the slab holds no corner of D.
+  /// Half the width of the unit disk at height y.
+  static double half_width(double y);
+  /// The ends of D's horizontal line at height y, where the rim is at ±half_width; empty where first ≥
+  /// second. Given the mean of half_width over a slab of heights that holds no corner of D, these are the
+  /// means of D's ends.
   std::pair<double, double> span(double y, double half_width) const;
-  /// Heights of the two corners; those of the whole disk are its poles.
+  /// Heights of the two corners between arc and chord; for the whole disk those of its poles.
   std::array<double, 2> corner_heights() const { return corners_; }
-  /// From a point of D in a unit direction.
+  /// From a point of D along a unit direction.
   double distance_to_boundary(const glm::dvec2& from, const glm::dvec2& direction) const;
-  /// The side of the boundary on which an event lies.
+  /// Whether an event lies on the left side of the boundary.
   bool on_left(const Event& e) const;
   /// Whether the walk meets `a` before `b`.
   bool comes_first(const Event& a, const Event& b) const;
   /// ∫ (x dy - y dx)/2 along the boundary from the lowest point to the event.
   double walked(const Event& e) const;
-  /// Σ change · walked(event).
+  /// Σ change · walked(event). Events on the rim are done in vectors.
   double sum_walked(std::span<const Event> events) const;
-  /// A point well inside.
+  /// A point well inside D.
   glm::dvec2 middle() const;
 
  private:
@@ -67,10 +71,12 @@ class DiskPart {
   bool chord_on_left_ = false, bottom_on_arc_ = true;
   double area_, bottom_ = -1.0, top_ = 1.0;
   std::array<double, 2> corners_{-1.0, 1.0};
-  double half_ = 0.0;           ///< half the chord's length
-  double arc_start_ = 0.0;      ///< angle at which the arc begins, where the chord ends
-  double middle_height_ = 0.0;  ///< of the chord
-  double bottom_walk_ = 0.0;    ///< the walk's integral from the chord's start to the lowest point
+  /// Half the length of the chord, and the height of its middle.
+  double half_ = 0.0, middle_height_ = 0.0;
+  /// The angle at which the arc begins, where the chord ends.
+  double arc_start_ = 0.0;
+  /// The integral of the walk from the start of the chord to the lowest point.
+  double bottom_walk_ = 0.0;
 };
 
 }  // namespace penumbra::detail

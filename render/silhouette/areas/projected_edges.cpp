@@ -14,31 +14,32 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr double kHair = 0x1p-23;
-constexpr std::size_t kFewEdges = 6;  // one by one: vectors would not be filled
+// Speed.
+/// So few edges are projected one by one, since vectors would not be filled. Seen in the benchmark
+/// `silhouette`.
+constexpr std::size_t kFewEdges = 6;
 
-/// How a projected edge lies; the numbers are in the order in which they are looked for.
+/// How a projected edge lies.
 enum State : std::int64_t {
-  kFar,      ///< beyond the certificate's margin
-  kBelow,    ///< near, but wholly below the horizon
-  kCrosses,  ///< near
-  kInside,   ///< both ends in the disk and above the horizon
-  kUnclear   ///< an end does not lie below the receiver
+  /// Beyond the margin of the certificate.
+  kFar,
+  /// Near, and wholly below the horizon.
+  kBelow,
+  /// Near, and partly above the horizon.
+  kCrosses,
+  /// Both ends lie in the disk and above the horizon.
+  kInside,
+  /// An end does not lie below the receiver.
+  kUnclear
 };
 
-/// Whether segment a b comes within 1 + slack of the disk's center, its ends being outside of the disk, from
-/// |a|², |b|², s = b - a, a·s and a × s. No division: ends may be far away.
-PENUMBRA_INLINE bool comes_near(double a2, double b2, double s2, double as, double cross, double reach2) {
-  const bool before = as >= 0.0, beyond = -as >= s2;
-  return ((before & (a2 < reach2)) | (beyond & (b2 < reach2)) |
-          (!before & !beyond & (cross * cross < reach2 * s2)));
-}
-
-/// The receiver, and the margin.
+/// The receiver, its horizon, the least x.z - p.z, and (1 + slack)².
 struct Eye {
   double x, y, z, least, reach2, horizon_x, horizon_y, horizon_delta;
 };
 
+/// Projects edges by their places, and tells how they lie. The ends of the edge at place i are the six
+/// numbers from ends[stride · i] on.
 PENUMBRA_VECTOR_CLONES
 void project(const double* ends, std::int32_t stride, const std::int32_t* places, int count, const Eye& eye,
              double* __restrict ax, double* __restrict ay, double* __restrict bx, double* __restrict by,
@@ -67,7 +68,7 @@ void project(const double* ends, std::int32_t stride, const std::int32_t* places
   }
 }
 
-/// One edge at a time, for those that `project` or the floats before it left open.
+/// Adds one edge by the definition, for those that `project` or the edge test left open.
 void add_projection(const BandEdge& edge, const Vec3& x, const Chord& horizon, double slack,
                     ProjectedEdges& out) {
   const Projection p = project_edge(edge, x, slack);
@@ -78,8 +79,7 @@ void add_projection(const BandEdge& edge, const Vec3& x, const Chord& horizon, d
   out.crossing.push_back(p.segment);
 }
 
-/// The tested edges: in vectors, and then one by one what they left open. `ends`: those of the edge at place
-/// i from stride · i.
+/// The edges that passed the edge test: in vectors, and then one by one what is still open.
 template <class EdgeAt>
 void project_tested(const TestedEdges& tested, const double* ends, std::int32_t stride, const EdgeAt& edge_at,
                     const Vec3& x, const Chord& horizon, double slack, ProjectedEdges& out) {
@@ -90,9 +90,12 @@ void project_tested(const TestedEdges& tested, const double* ends, std::int32_t 
   const double reach = 1.0 + slack;
   const double *ax = out.ends[0].data(), *ay = out.ends[1].data(), *bx = out.ends[2].data(),
                *by = out.ends[3].data();
-  project(ends, stride, tested.places.data(), static_cast<int>(count),
-          {x.x, x.y, x.z, kHair * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
-          out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
+  project(
+      ends, stride, tested.places.data(), static_cast<int>(count),
+      {x.x, x.y, x.z, kLeastBelow * x.z, reach * reach, horizon.normal.x, horizon.normal.y, horizon.delta},
+      out.ends[0].data(), out.ends[1].data(), out.ends[2].data(), out.ends[3].data(), out.states.data());
+
+  // Segments inside first, then the others.
   std::size_t inside = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::int64_t state = out.states[i];
@@ -124,35 +127,6 @@ void ProjectedEdges::clear() {
   inside = 0;
   certain = true;
   crossing.clear();
-}
-
-double certificate_slack(double extent) {
-  return 1e-6 + 0x1p-26 * extent;
-}
-
-Projection project_edge(const BandEdge& e, const Vec3& x, double slack) {
-  const double left = e.left.value(x), right = e.has_right() ? e.right.value(x) : 0.0;
-  const int jump = (left > 0.0 ? 1 : -1) + (e.has_right() ? (right > 0.0 ? -1 : 1) : 0);
-  const bool sure = std::abs(left) > e.left.tolerance && std::abs(right) > e.right.tolerance;
-  if (jump == 0 && sure) return {{}, false};
-
-  // Where an end is not below the receiver, the point of the edge that is so by a hair.
-  const double least = kHair * x.z;
-  double wa = x.z - e.a.z, wb = x.z - e.b.z;
-  if (!(wa > least) && !(wb > least)) return {{}, false};
-  glm::dvec2 a(e.a), b(e.b);
-  const double wa0 = wa, wb0 = wb;
-  if (!(wa > least)) a += ((least - wa0) / (wb0 - wa0)) * (glm::dvec2(e.b) - a), wa = least;
-  if (!(wb > least)) b += ((least - wb0) / (wa0 - wb0)) * (glm::dvec2(e.a) - b), wb = least;
-  const glm::dvec2 from(x);
-  const glm::dvec2 pa = from + (a - from) * (x.z / wa), pb = from + (b - from) * (x.z / wb);
-
-  if (glm::dot(pa, pa) < 1.0 || glm::dot(pb, pb) < 1.0) return {{pa, pb, jump}, true};
-  const glm::dvec2 s = pb - pa;
-  const double reach = 1.0 + slack;
-  return {{pa, pb, jump},
-          comes_near(glm::dot(pa, pa), glm::dot(pb, pb), glm::dot(s, s), glm::dot(pa, s),
-                     pa.x * s.y - pa.y * s.x, reach * reach)};
 }
 
 void project_edges(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack,

@@ -12,10 +12,19 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr int kFewKeys = 96;            // a row: what sorts them is written down
-constexpr double kLeastLength = 1e-10;  // an interval shorter than that is rounding, not a depth complexity
-constexpr double kNoComplexity = 1e9;   // above all
-constexpr double kMagic = 0x1.8p52;     // kMagic + n has the integer n in its last bits
+// Accuracy.
+/// A shorter interval is rounding, not a depth complexity. Light radii. Held by the test VisibleArea.
+constexpr double kLeastLength = 1e-10;
+
+// Speed.
+/// Keys of a row, below which the exchanges that sort them are written down. Seen in the benchmark
+/// `silhouette`.
+constexpr int kFewKeys = 96;
+
+/// More than any depth complexity.
+constexpr double kNoComplexity = 1e9;
+/// kMagic + n has the integer n in its last bits.
+constexpr double kMagic = 0x1.8p52;
 
 /// x and a change of -2 to 2 in one number; x loses its last three bits.
 double crossing_key(double x, int change) {

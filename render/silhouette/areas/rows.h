@@ -1,10 +1,11 @@
-// Silhouette method, in step 5: scanlines across the disk with exact intervals, for many segments.
+// Silhouette method, step area: scanlines across the disk with exact intervals, for many segments.
 //
-// In: segments inside D, at which the number L of hiding faces changes. Out: how long each row lies at L, as
-// far as fusing asks (visible_area.h): the lowest depth complexity and its length, and the moments of L. Rows are
-// lanes: their crossings are sorted and swept many rows at a time, without branches, as many as the processor
-// has lanes (real_lanes.h). A crossing is one
-// number, its x with the change of L in the last three bits of the mantissa, so that sorting moves both.
+// In: segments inside D, at which the depth complexity L changes. Out: the lowest depth complexity, the
+// length over which rows lie at it, and the moments of L over the rows (visible_area.h).
+//
+// Rows are lanes. Their crossings are sorted and swept many rows at a time, without branches, as many as
+// the processor has lanes (support/real_lanes.h). A crossing is one number, its x with the change of L in
+// the last three bits of the mantissa, so that sorting moves both.
 #pragma once
 
 #include <array>
@@ -15,53 +16,61 @@
 
 namespace penumbra::detail {
 
+/// Sums over the intervals between crossings in all rows.
 struct RowSums {
-  double length = 0.0, first = 0.0, second = 0.0;  ///< Σ length · L^k over all intervals, k = 0, 1, 2
-  double lowest = 0.0;                             ///< the lowest depth complexity
-  double lowest_length = 0.0;
-  int complexities = 0;  ///< how many were met
-  std::array<glm::dvec2, 2>
-      aims;  ///< middles of long intervals at the lowest depth complexity, in rows of either parity
+  /// Σ length · L^k, k = 0, 1, 2.
+  double length = 0.0, first = 0.0, second = 0.0;
+  /// The lowest depth complexity, and the length of its intervals.
+  double lowest = 0.0, lowest_length = 0.0;
+  /// How many depth complexities were met.
+  int complexities = 0;
+  /// The middles of long intervals at the lowest depth complexity, in even and in odd rows, the longer first.
+  std::array<glm::dvec2, 2> aims;
 };
 
-/// Rows that lie next to each other in memory and are swept together.
+/// As many rows as lie next to each other in memory and are swept together.
 inline constexpr int kRowLanes = 8;
 
-/// One crossing of each of some neighboring rows.
+/// One crossing of each of kRowLanes neighboring rows.
 struct alignas(kRowLanes * sizeof(double)) RowKeys {
   std::array<double, kRowLanes> x;
 };
 
-/// Some neighboring rows before their first crossing.
+/// kRowLanes neighboring rows before their first crossing.
 struct RowStarts {
-  const double *left, *right;  ///< ends
-  const double* complexity;    ///< L at the left ends
-  double least;                ///< lower depth complexities count as this
+  /// The ends of the rows, and L at the left ends.
+  const double *left, *right, *complexity;
+  /// Lower depth complexities count as this.
+  double least;
 };
 
-/// The same rows behind their last one.
+/// The same rows behind their last crossing.
 struct alignas(kRowLanes * sizeof(double)) RowResults {
   using Numbers = std::array<double, kRowLanes>;
-  Numbers length, first, second, lowest, lowest_length;  ///< as in RowSums
-  Numbers best, middle;                      ///< of the longest interval at the lowest depth complexity
-  std::array<std::int64_t, kRowLanes> seen;  ///< bit L mod 64 for each depth complexity met
+  /// As in RowSums, for each row.
+  Numbers length, first, second, lowest, lowest_length;
+  /// The length and the middle of the longest interval at the lowest depth complexity.
+  Numbers best, middle;
+  /// Bit L mod 64 is set for each depth complexity L that was met.
+  std::array<std::int64_t, kRowLanes> seen;
 };
 
-/// For one receiver after the other, with memory kept between them.
+/// Sweeps the rows of one receiver after the other, with memory kept between them.
 class Rows {
  public:
   static constexpr double kNoLeast = -1e9;
-  /// `rows` at even distances across D; depth complexities below `least` count as that. Cost for s segments with c
-  /// crossings, at most m in a row: s + c + rows m².
+  /// `rows`: how many, at even distances across D. Depth complexities below `least` count as that. Cost for
+  /// s segments with c crossings, at most m in a row: s + c + rows · m log² m.
   RowSums sweep(const ClippedSegments& clipped, const DiskPart& part, int rows, double least = kNoLeast);
   /// The same with rows sorted one by one and code for any processor: the same bits, for tests.
   RowSums sweep_singly(const ClippedSegments& clipped, const DiskPart& part, int rows,
                        double least = kNoLeast);
 
  private:
+  /// A segment, and the rows above its ends.
   struct CrossingSegment {
     const Segment* segment;
-    int from, to;  ///< the rows above its ends
+    int from, to;
   };
   struct Sums {
     RowSums sums;
@@ -82,18 +91,25 @@ class Rows {
 
   int rows_ = 0;
   double least_ = kNoLeast;
-  std::size_t stride_ = 0;  ///< rows, rounded up
+  /// rows_, rounded up to kRowLanes.
+  std::size_t stride_ = 0;
   double bottom_ = 0.0, spacing_ = 0.0, per_spacing_ = 0.0;
-  bool whole_disk_ = false;  ///< the ends of rows are those of the whole disk
+  /// The rows are placed for the whole disk.
+  bool whole_disk_ = false;
   std::vector<double> heights_, left_, right_;
-  std::vector<double> complexities_;       ///< at left ends
-  std::vector<CrossingSegment> crossing_;  ///< the first crossing_count_
+  /// L at the left ends.
+  std::vector<double> complexities_;
+  /// The first crossing_count_ are in use.
+  std::vector<CrossingSegment> crossing_;
   std::size_t crossing_count_ = 0;
-  std::vector<std::size_t> next_;  ///< where each row's next key belongs, in numbers
-  std::vector<int> longest_;       ///< the most crossings of a row, of some rows that are swept together
-  std::size_t most_ = 1;           ///< keys a row
-  std::vector<RowKeys>
-      keys_;  ///< crossing k of row i is lane i mod kRowLanes of number i/kRowLanes · most + k
+  /// Where the next key of each row belongs, counted in numbers.
+  std::vector<std::size_t> next_;
+  /// The most crossings of a row, for each kRowLanes rows.
+  std::vector<int> longest_;
+  /// Keys of a row.
+  std::size_t most_ = 1;
+  /// Crossing k of row i is lane i mod kRowLanes of entry i/kRowLanes · most_ + k.
+  std::vector<RowKeys> keys_;
 };
 
 }  // namespace penumbra::detail

@@ -9,15 +9,27 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr int kMostComplexity = 256;      // either way from the lowest point's; deeper ones count as the last
-constexpr double kLeastLength = 1e-10;    // an interval shorter than that is rounding, not a depth complexity
-constexpr double kLeastRoom = 1e-3;       // beside a chain, for a ray
-constexpr double kMostCorrection = 0.02;  // of the area, by what rows are taken for representative
+// Accuracy. Held by the tests VisibleArea, and as a whole by SilhouetteProperty.
+/// Depth complexities either way of that of D's lowest point; what is beyond counts as the last.
+constexpr int kMostComplexity = 256;
+/// A shorter interval is rounding, not a depth complexity. Light radii.
+constexpr double kLeastLength = 1e-10;
+/// The least room beside a chain for a ray. Light radii.
+constexpr double kLeastRoom = 1e-3;
+/// The largest correction by the integral, over |D|, up to which rows count as representative.
+constexpr double kMostCorrection = 0.02;
+/// The most that a few rows may differ from the integral, over |D|.
+constexpr double kMostApart = 0.004;
+
+// Speed. Seen in the benchmark `silhouette`.
+/// The most rows, where rows were not representative.
 constexpr int kMostRows = 1024;
+/// The rows that tell whether there are two depth complexities.
 constexpr int kFewRows = 16;
-constexpr double kMostApart = 0.004;       // rows and integral, as a share of the disk
-constexpr std::size_t kMany = 256;         // segments; fewer need fewer rows for the same error
-constexpr std::size_t kMostForSlabs = 20;  // segments; beyond, rows are faster and err by less than .001
+/// So many segments have the full number of rows; fewer err as little with three quarters of it.
+constexpr std::size_t kMany = 256;
+/// The most segments for slabs. With more, rows are faster and err by less than .001.
+constexpr std::size_t kMostForSlabs = 20;
 
 /// ∫ √(1 - y²) dy from 0 to each height.
 PENUMBRA_VECTOR_CLONES
@@ -33,18 +45,23 @@ void integrate_rim(const double* heights, std::size_t count, double* __restrict 
 bool area_by_chain(const ClippedSegments& clipped, const DiskPart& part, double sliver,
                    VisibleAreaResult& out) {
   if (!is_one_chain(clipped, sliver * part.area())) return false;
-  // Directed so that the lower depth complexity lies on the right.
+
+  // From where to where it runs, so that the lower depth complexity lies on the right.
   const bool in_order = clipped.events[0].change < 0;
   const Event &start = clipped.events[in_order ? 0 : 1], &end = clipped.events[in_order ? 1 : 0];
   const glm::dvec2 way = end.at - start.at, middle = 0.5 * (start.at + end.at);
   const double length = glm::length(way);
   if (length < kLeastRoom) return false;
   const glm::dvec2 right = glm::dvec2(way.y, -way.x) / length;
+
+  // The room on its right.
   double bulge = 0.0;
   for (const Segment& s : clipped.segments) bulge = std::max(bulge, glm::dot(s.a - middle, right));
   for (const Segment& s : clipped.segments) bulge = std::max(bulge, glm::dot(s.b - middle, right));
   const double reach = part.distance_to_boundary(middle, right);
   if (reach - bulge < kLeastRoom) return false;
+
+  // The area on its right, and two points there.
   const double high_or_low = clipped.integral / end.change;
   out.area =
       std::clamp(part.comes_first(start, end) ? -high_or_low : part.area() - high_or_low, 0.0, part.area());
@@ -77,7 +94,7 @@ void VisibleArea::add_interval(const Slab& slab, double from, double to, int com
   if (area * aim.reach > aim.area * reach) aim = {area, reach, {0.5 * (from + to), slab.y}};
 }
 
-/// By x; slabs hold few crossings.
+/// By x. Slabs hold few crossings.
 void VisibleArea::sort_crossings() {
   for (auto c = crossings_.begin(); c != crossings_.end(); ++c) {
     const Crossing moving = *c;
@@ -119,7 +136,7 @@ void VisibleArea::add_line(const Segment& s) {
   lines_.push_back({low.y, high.y, low.x, (high.x - low.x) / (high.y - low.y), up ? -s.jump : s.jump});
 }
 
-/// Ends, crossings, and where D's boundary has corners.
+/// The heights of ends, of crossings, and of the corners of D's boundary, ascending.
 void VisibleArea::make_heights(const DiskPart& part, const ClippedSegments& clipped) {
   heights_ = {part.bottom(), part.top()};
   for (const double corner : part.corner_heights()) heights_.push_back(corner);
@@ -149,6 +166,7 @@ void VisibleArea::sweep_slabs(const ClippedSegments& clipped, const DiskPart& pa
     const double y = 0.5 * (low + high);
     const auto [left, right] = part.span(y, (rim_[i] - rim_[before]) / height);
     before = i;
+    // L at the left end, and the crossings.
     Slab slab{y, height, left, right, 0};
     for (const Event& e : clipped.events)
       if (e.at.y < y && part.on_left(e)) slab.first_complexity -= e.change;
@@ -170,6 +188,8 @@ VisibleAreaResult VisibleArea::by_slabs(const ClippedSegments& clipped, const Di
     if (s.a.y != s.b.y) add_line(s);
   make_heights(part, clipped);
   sweep_slabs(clipped, part, -kMostComplexity);
+
+  // As long as the lowest is a sliver, it counts as the next.
   while (lowest_ < highest_ && areas_[lowest_ + kMostComplexity] <= sliver * part.area()) {
     const int next = lowest_ + 1;
     forget_areas();
@@ -197,9 +217,13 @@ VisibleAreaResult VisibleArea::by_rows(const ClippedSegments& clipped, const Dis
                                        double sliver) {
   const RowSums sums = sweep_rows(clipped, part, rows, sliver);
   if (!(sums.length > 0.0)) return {part.area(), 1, {part.middle(), part.middle()}, AreaMethod::kRows};
+
+  // The share of the lowest, the mean of L, and the control variate's factor.
   const double share = sums.lowest_length / sums.length, mean = sums.first / sums.length;
   const double variance = sums.second / sums.length - mean * mean;
   const double c = sums.complexities > 1 ? share * (sums.lowest - mean) / variance : 0.0;
+
+  // Corrected by the integral, or with more rows.
   const double correction = c * (clipped.integral - part.area() * mean);
   if (std::abs(correction) > kMostCorrection * part.area() && rows <= kMostRows / 4)
     return by_rows(clipped, part, 4 * rows, sliver);
@@ -209,9 +233,12 @@ VisibleAreaResult VisibleArea::by_rows(const ClippedSegments& clipped, const Dis
 
 bool VisibleArea::by_few_rows(const ClippedSegments& clipped, const DiskPart& part, double sliver,
                               VisibleAreaResult& out) {
+  // All jumps are of one size.
   const int step = std::abs(clipped.segments.front().jump);
   if (std::ranges::any_of(clipped.segments, [=](const Segment& s) { return std::abs(s.jump) != step; }))
     return false;
+
+  // Two depth complexities, but for slivers.
   const RowSums sums = sweep_rows(clipped, part, kFewRows, sliver);
   if (!(sums.length > 0.0)) return false;
   const double low = sums.lowest, high = low + step;
@@ -219,6 +246,8 @@ bool VisibleArea::by_few_rows(const ClippedSegments& clipped, const DiskPart& pa
   // (L - low)(L - high) is 0 at both depth complexities, and two steps squared or more elsewhere.
   const double elsewhere = (sums.second - (low + high) * sums.first) / sums.length + low * high;
   if (!(elsewhere <= 2.0 * step * step * sliver)) return false;
+
+  // Rows and integral agree.
   if (std::abs(clipped.integral - part.area() * mean) > kMostApart * step * part.area()) return false;
   const double area = part.area() - (clipped.integral - low * part.area()) / step;
   out = {std::clamp(area, 0.0, part.area()), sums.complexities, sums.aims, AreaMethod::kChain};

@@ -1,7 +1,10 @@
-// Silhouette method, in step 2: what drops blocks of edges for receivers, by the blocks' bounds.
+// Silhouette method, step collect: tests that drop blocks of edges by their bounds.
 //
-// In float with the margin of block_bounds.h, M the scene's extent in light radii, and times 1 + (M + 1)/z
-// where projection enlarges errors. What is dropped is farther from the disk than the certificate's slack.
+// In: the receivers of a shaft (`ShaftTest`), or one receiver (`ConeTest`). Out: tests for `BoundsTree`.
+// What they drop is farther from the disk than the slack of the certificate (edges/projected_segment.h).
+//
+// All is in float with the margin of block_bounds.h, M being the extent of the scene in light radii, times
+// 1 + (M + 1)/z where projection enlarges errors.
 #pragma once
 
 #include <array>
@@ -13,7 +16,7 @@
 
 namespace penumbra::detail {
 
-/// Drops blocks for the receivers of a shaft.
+/// Drops blocks outside of a shaft, below its horizons, or with planes of one sign for all its receivers.
 class ShaftTest {
  public:
   ShaftTest(const Shaft& shaft, double extent) : receivers_(shaft.middle(), shaft.half()) {
@@ -28,7 +31,7 @@ class ShaftTest {
     normals_ = FloatBox(0.5 * (low + high), 0.5 * (high - low));
     lowest_ = static_cast<float>(lowest - margin);
   }
-  /// Bit i is set for block i.
+  /// Bit i is set where block i is dropped.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
     Ints out = are_one_sided(c, receivers_);
     for (const FloatPlane& p : planes_) out |= p.has_outside(c);
@@ -44,7 +47,7 @@ class ShaftTest {
 };
 
 /// Drops blocks for one receiver x: outside of the cone from x to the disk, |p.xy - x.xy p.z/x.z| > 1 -
-/// p.z/x.z, or below its tangent plane.
+/// p.z/x.z, below its tangent plane, or with planes of one sign at x.
 class ConeTest {
  public:
   ConeTest() = default;
@@ -54,6 +57,7 @@ class ConeTest {
         steep_((std::hypot(at_.middle[0], at_.middle[1]) + 1.0f) * per_z_),
         margin_(static_cast<float>(kBoundsGrain * extent) * (1.0f + steep_)),
         tangent_(-receiver.normal, glm::dot(receiver.normal, receiver.x) - kBoundsGrain * extent) {}
+  /// Bit i is set where block i is dropped.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
     Ints out = are_one_sided(c, at_) | tangent_.has_outside(c);
     const Floats t = c.middle[2] * per_z_;
@@ -62,7 +66,6 @@ class ConeTest {
     out |= (reach < 0.0f) | (x * x + y * y > reach * reach * 1.00001f);
     return bits_of(out);
   }
-  const FloatBox& at() const { return at_; }
 
  private:
   FloatBox at_;

@@ -6,13 +6,13 @@
 #include <array>
 #include <optional>
 
-#include "mesh/vectors.h"
-#include "render/rays/ray_scene.h"
-
 namespace penumbra::detail {
 namespace {
 
-/// Before the plane z = depth, where casters end.
+// Speed. Items that a task makes: vertices, edges, blocks. Seen in the benchmark `silhouette`, stage band.
+constexpr std::size_t kVerticesPerTask = 4096, kEdgesPerTask = 1024, kBlocksPerTask = 128;
+
+/// Tells whether a point is in front of the plane z = depth, where casters end.
 class FrontSide {
  public:
   explicit FrontSide(double depth) : depth_(depth) {}
@@ -30,6 +30,7 @@ class FrontSide {
   double depth_;
 };
 
+/// Takes positions to the light's frame.
 struct ToFrame {
   const UnitLight& light;
   Vec3 operator()(const Vec3& p) const { return light.point(p); }
@@ -50,7 +51,7 @@ class LitCaster {
 
   bool all_in_front() const { return all_in_front_; }
 
-  /// Of casters that are not all in front.
+  // The next three are for casters that are not all in front.
   bool has_end_in_front(EdgeId id) const {
     const Edge& e = mesh_.edges[index(id)];
     return front_[index(e.from)] || front_[index(e.to)];
@@ -61,6 +62,7 @@ class LitCaster {
   }
   std::size_t face_count() const { return mesh_.triangles.size(); }
 
+  /// The part of an edge in front of the plane; requires an end in front.
   BandEdge edge(EdgeId id) const {
     BandEdge e = mesh_.edge(id, to_frame_, extent_);
     const Vec3 a = e.a, b = e.b;
@@ -69,8 +71,8 @@ class LitCaster {
     return e;
   }
 
-  /// The front part of a face that crosses the light's plane ends where it leaves the front and begins again
-  /// where it comes back.
+  /// The cut of a face that crosses the plane: from where its outline leaves the front to where it comes
+  /// back.
   BandEdge cut_edge(FaceId face) const {
     const auto corners = mesh_.corners(face, to_frame_);
     BandEdge e{Vec3(0.0), Vec3(0.0), mesh_.plane(face, to_frame_, extent_), kNoFace};
@@ -84,10 +86,11 @@ class LitCaster {
  private:
   void find_front() {
     front_.resize(mesh_.positions.size());
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, front_.size(), 4096), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i)
-        front_[i] = in_front_(to_frame_(mesh_.positions[i]));
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, front_.size(), kVerticesPerTask),
+                      [&](const auto& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          front_[i] = in_front_(to_frame_(mesh_.positions[i]));
+                      });
   }
 
   MeshArrays mesh_;
@@ -95,19 +98,21 @@ class LitCaster {
   FrontSide in_front_;
   double extent_;
   bool all_in_front_;
-  std::vector<char> front_;  ///< of each vertex, where some are not
+  /// For each vertex whether it is in front; empty where all are.
+  std::vector<char> front_;
 };
 
-/// One place per object; none for those that do not cast.
+/// One an object; none for objects that do not cast.
 using LitCasters = std::vector<std::optional<LitCaster>>;
 
+/// A face that crosses the plane where casters end.
 struct CutFace {
   std::uint32_t object;
   FaceId face;
 };
 
-/// Takes edges that lie behind the plane where casters end out; what is left of faces that cross it is
-/// bounded by the faces that are returned. Cost O(faces) of casters that are not wholly in front of it.
+/// Removes edges that lie behind the plane where casters end, and returns the faces that cross it. Cost
+/// O(faces) of casters that are not wholly in front of it.
 std::vector<CutFace> cut_at_light(const LitCasters& casters, std::vector<SceneEdge>& edges) {
   const auto is_cut = [](const auto& c) { return c && !c->all_in_front(); };
   std::vector<CutFace> cuts;
@@ -124,52 +129,8 @@ std::vector<CutFace> cut_at_light(const LitCasters& casters, std::vector<SceneEd
   return cuts;
 }
 
-/// Of the whole scene, receivers included.
-double extent_of(const Scene& scene, const Bounds& receivers, const UnitLight& light) {
-  Bounds box = scene.bounds();
-  box.add(receivers);
-  double extent = 1.0;
-  for (int corner = 0; corner < 8; ++corner)
-    extent = std::max(extent, largest_component(light.point({corner & 1 ? box.high.x : box.low.x,
-                                                             corner & 2 ? box.high.y : box.low.y,
-                                                             corner & 4 ? box.high.z : box.low.z})));
-  return extent;
-}
-
-/// By a little more than half a radian: a slope of the golden section, far from those of regular patterns.
-LightFrame turned(const LightFrame& axes) {
-  constexpr double kCosine = 0.85065080835203993, kSine = 0.52573111211913361;
-  return {kCosine * axes.u + kSine * axes.v, kCosine * axes.v - kSine * axes.u, axes.w};
-}
-
-}  // namespace
-
-UnitLight::UnitLight(const DiskLight& light)
-    : disk_(light),
-      axes_(turned(light_frame(light))),
-      center_(light.center),
-      across_(light.radius * axes_.u),
-      up_(light.radius * axes_.v),
-      per_radius_(1.0 / light.radius) {}
-
-LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const SceneEdges& edges,
-                   const Bounds& receivers, std::span<const char> flags)
-    : scene(lit_scene),
-      light(unit_light),
-      cannot_occlude(flags),
-      depth(kLightOffset / edges.scale() * light.per_radius()),
-      boxes(scene.objects.size()),
-      extent(extent_of(scene, receivers, light)) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    if (!object.casts || object.mesh.empty() || (!cannot_occlude.empty() && cannot_occlude[i])) continue;
-    boxes[i] = edges.points(i).box_in(light);
-    all_in_front = all_in_front && FrontSide(depth)(boxes[i].low);
-  }
-}
-
 /// A band without edges.
-static Band empty_band(const LitScene& lit) {
+Band empty_band(const LitScene& lit) {
   Band band;
   band.extent = lit.extent;
   for (std::size_t i = 0; i < lit.boxes.size(); ++i) {
@@ -181,18 +142,24 @@ static Band empty_band(const LitScene& lit) {
   return band;
 }
 
+}  // namespace
+
 Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<const ReceiverRegion> regions) {
   Band band = empty_band(lit);
   LitCasters casters(lit.boxes.size());
   for (std::size_t i = 0; i < casters.size(); ++i)
     if (lit.casts(i)) casters[i].emplace(lit, i);
+
+  // Which edges, and which cuts of faces.
   std::vector<SceneEdge> edges =
       regions.empty() ? scene_edges.band_of(lit.light.disk(), lit.cannot_occlude)
                       : scene_edges.band_for(regions, lit.scene, lit.light.disk(), lit.cannot_occlude);
   const std::vector<CutFace> cuts = cut_at_light(casters, edges);
   band.cut_edges = cuts.size();
+
+  // All of them in the light's frame.
   band.edges = LargeArray<BandEdge>(edges.size() + cuts.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), 1024), [&](const auto& range) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, edges.size(), kEdgesPerTask), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       band.edges[i] = casters[edges[i].object]->edge(edges[i].id);
   });
@@ -202,6 +169,7 @@ Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<con
 }
 
 Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const MergedLevel& level) {
+  /// The light's frame, as MergedLevel::block takes it.
   struct LightUnits {
     const UnitLight& light;
     Vec3 point(const Vec3& p) const { return light.point(p); }
@@ -213,22 +181,23 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
   band.bounds.resize(blocks.size());
   band.deviation.resize(blocks.size());
   band.lanes = LargeArray<MergedLanes>(blocks.size());
-  const std::size_t missing =  // of the level's last block
-      !blocks.empty() && blocks.back() + 1 == level.block_count()
-          ? level.block_count() * MergedBlock::kEdges - level.edges.size()
-          : 0;
+  // Only the level's last block may have fewer than eight edges.
+  const std::size_t missing = !blocks.empty() && blocks.back() + 1 == level.block_count()
+                                  ? level.block_count() * MergedBlock::kEdges - level.edges.size()
+                                  : 0;
   band.edges = LargeArray<BandEdge>(blocks.size() * MergedBlock::kEdges - missing);
   band.sides.resize(band.edges.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 128), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      const MergedBlock block = level.block(lit.scene, blocks[i], LightUnits{lit.light}, lit.extent);
-      std::copy_n(block.edges.begin(), block.count, band.edges.data() + i * MergedBlock::kEdges);
-      std::copy_n(block.sides.begin(), block.count, band.sides.data() + i * MergedBlock::kEdges);
-      band.bounds[i] = block.bounds();
-      band.lanes[i] = MergedLanes(block, lit.extent);
-      band.deviation[i] = static_cast<float>(block.deviation * lit.light.per_radius());
-    }
-  });
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, blocks.size(), kBlocksPerTask), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const MergedBlock block = level.block(lit.scene, blocks[i], LightUnits{lit.light}, lit.extent);
+          std::copy_n(block.edges.begin(), block.count, band.edges.data() + i * MergedBlock::kEdges);
+          std::copy_n(block.sides.begin(), block.count, band.sides.data() + i * MergedBlock::kEdges);
+          band.bounds[i] = block.bounds();
+          band.lanes[i] = MergedLanes(block, lit.extent);
+          band.deviation[i] = static_cast<float>(block.deviation * lit.light.per_radius());
+        }
+      });
   return band;
 }
 

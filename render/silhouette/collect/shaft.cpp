@@ -11,6 +11,7 @@
 namespace penumbra::detail {
 namespace {
 
+/// Of the sides.
 struct Directions {
   Directions() {
     for (int k = 0; k < kShaftSides; ++k) {
@@ -22,7 +23,7 @@ struct Directions {
 };
 const Directions kDirections;
 
-/// The largest slopes that receivers ask for, direction by direction.
+/// The slopes of the sides that touch the receivers: the largest that one of them asks for, side by side.
 PENUMBRA_VECTOR_CLONES
 void tighten_slopes(const TileReceiver* receivers, std::size_t count, double* __restrict slope) {
   const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
@@ -39,8 +40,8 @@ void tighten_slopes(const TileReceiver* receivers, std::size_t count, double* __
   for (int k = 0; k < kShaftSides; ++k) slope[k] = most[k];
 }
 
-/// Whether something lies beyond one of the shaft's sides d·p.xy - 1 - slope p.z > 0, given the least of
-/// d·p.xy - slope p.z over it. All sides at once, without branches.
+/// Whether something lies beyond one of the sides, d·p.xy - 1 - slope p.z > 0. `least`: the least d·p.xy -
+/// slope p.z over it. All sides at once, without branches.
 template <class Least>
 PENUMBRA_INLINE bool is_beyond_some_side(const double* slope, double margin, const Least& least) {
   const double *cosine = kDirections.x.data(), *sine = kDirections.y.data();
@@ -105,6 +106,7 @@ Shaft::Side Shaft::side_plane(int k) const {
 
 ReceiverRegion Shaft::region(std::span<const TileReceiver> receivers, const UnitLight& light,
                              const RayFrame& frame) const {
+  // The sides in the frame of rays.
   static_assert(ReceiverRegion::kPlanes == kShaftSides + 1);
   std::array<ReceiverRegion::Plane, ReceiverRegion::kPlanes> planes;
   const double scale = light.per_radius() / frame.scale;  // light radii a unit of the frame
@@ -115,6 +117,8 @@ ReceiverRegion Shaft::region(std::span<const TileReceiver> receivers, const Unit
     planes[k] = {per_length * scale * light.world_direction(side.normal),
                  per_length * (glm::dot(side.normal, origin) + side.offset)};
   }
+
+  // The receivers' box, their horizons, and the receivers.
   const auto rotated = [&](const Vec3& half) {  // the box of a rotated box
     return glm::abs(light.world_direction({half.x, 0.0, 0.0})) +
            glm::abs(light.world_direction({0.0, half.y, 0.0})) +

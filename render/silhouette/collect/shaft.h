@@ -1,12 +1,13 @@
-// Silhouette method, step 2 of 5: which band edges a tile of receivers has to look at.
+// Silhouette method, step collect: which edges a tile of receivers has to look at.
 //
-// In: the band, and up to 64 neighboring receivers. Out: the edges that may be a silhouette across the disk
-// for one of them; what is left out certainly is none. An edge is left out where
+// In: up to 64 neighboring receivers. Out: a test of edges and boxes. What it drops is no silhouette across
+// the disk for any of the receivers. An edge can be dropped where
 //  - it lies outside of a plane that bounds the receivers and the disk together (`Shaft`),
 //  - it lies below the tangent planes of all receivers, where those cut the disk,
-//  - its faces keep their sides for all receivers, and its jump is 0.
-// The same tests run over a tree of boxes first (band_tree.h), so that the cost of a tile follows what
-// it keeps.
+//  - its faces are on the same sides for all receivers, and its jump is 0 (block_tests.h, edge_blocks.h,
+//    edge_list.h).
+// The same tests run over a tree of boxes first (band_tree.h), so that the cost of a tile follows what it
+// keeps.
 #pragma once
 
 #include <array>
@@ -15,55 +16,54 @@
 #include <vector>
 
 #include "render/rays/ray_scene.h"
-#include "render/silhouette/areas/disk_part.h"
 #include "render/silhouette/collect/light_band.h"
+#include "render/silhouette/collect/tile_receiver.h"
 #include "render/silhouette/edges/receiver_region.h"
 
 namespace penumbra::detail {
 
+/// Speed. Directions of the sides of a shaft. More sides keep fewer edges and cost more for each. Seen in
+/// the benchmark `silhouette`, stage receivers.
 inline constexpr int kShaftSides = 16;
 
-/// A receiver in the light's frame: in front of the light, and with some of it above the horizon.
-struct TileReceiver {
-  Vec3 x, normal;
-  Chord horizon;  ///< no_horizon where all of the disk is above the tangent plane
-  bool horizon_cuts = false;
-  std::uint32_t index = 0;  ///< of the receiver
-};
-
-/// A convex region that holds the disk and all receivers: z ≤ top, and for 16 directions d around the light
-/// the plane d·(p.x, p.y) ≤ 1 + slope·p.z, which touches the disk and the receivers. With `horizon` also
-/// everything that is below all tangent planes counts as outside. Signs are decided with a margin, so that
-/// rounding keeps an edge rather than losing it.
+/// A convex region that holds the disk and all receivers: z ≤ top, and d·(p.x, p.y) ≤ 1 + slope · p.z for
+/// 16 directions d around the light. Each of these sides touches the disk and the receivers. Where some
+/// receiver's horizon cuts the disk, what lies below all tangent planes also counts as outside. Signs are
+/// decided with a margin: rounding keeps an edge rather than losing it.
 class Shaft {
  public:
-  /// By the box of the receivers: loose, but cheap.
+  /// Around the box of the receivers: loose, but cheap. `extent`: the largest coordinate.
   Shaft(std::span<const TileReceiver> receivers, double extent);
-  /// By the receivers themselves.
+  /// Makes the sides touch the receivers themselves, and adds their horizons. Cost O(receivers).
   void tighten(std::span<const TileReceiver> receivers);
 
+  /// A box, or an edge, lies outside.
   bool misses(const Vec3& low, const Vec3& high) const;
   bool misses(const BandEdge& edge) const;
 
-  /// Plane k of the shaft, 0 to kShaftSides: normal·p + offset ≤ 0 inside; the last is the top.
+  /// Side k of the shaft, 0 to kShaftSides: normal·p + offset ≤ 0 inside. The last is the top.
   struct Side {
     Vec3 normal;
     double offset;
   };
   Side side_plane(int k) const;
-  /// The same for the frame of rays, and always with the receivers' horizons: what lies below them all hides
-  /// nothing of what is above.
+  /// The same shaft in the frame of rays, with the receivers' horizons in any case: what lies below all of
+  /// them hides nothing of what lies above.
   ReceiverRegion region(std::span<const TileReceiver> receivers, const UnitLight& light,
                         const RayFrame& frame) const;
+  /// The box of the receivers, by its middle and half its size.
   const Vec3& middle() const { return middle_; }
   const Vec3& half() const { return half_; }
+  /// The receivers' tangent planes together.
   struct Horizons {
     Horizons() = default;
     Horizons(std::span<const TileReceiver> receivers, const Vec3& middle);
-    Vec3 low{0.0}, high{0.0};  ///< box of all receivers' normals
-    double lowest = 0.0;       ///< the least normal·(receiver - middle)
+    /// The box of the normals.
+    Vec3 low{0.0}, high{0.0};
+    /// The least normal·(receiver - middle).
+    double lowest = 0.0;
   };
-  /// Some receiver's horizon cuts the disk, and of a tightened shaft then all horizons.
+  /// Some receiver's horizon cuts the disk. Known, with all `horizons`, after `tighten`.
   bool has_horizon() const { return horizon_; }
   const Horizons& horizons() const { return horizons_; }
 
@@ -72,7 +72,7 @@ class Shaft {
 
   alignas(64) std::array<double, kShaftSides> slope_;
   double top_, margin_;
-  Vec3 middle_, half_;  ///< box of the receivers
+  Vec3 middle_, half_;
   bool horizon_ = false;
   Horizons horizons_;
 };

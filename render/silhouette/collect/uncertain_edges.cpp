@@ -7,15 +7,18 @@
 #include <limits>
 #include <utility>
 
-#include "render/silhouette/areas/projected_edges.h"
+#include "render/silhouette/edges/projected_segment.h"
 
 namespace penumbra::detail {
 namespace {
 
-constexpr double kStraight = 1e-3;  // of the certificate's slack, a margin that it covers
+// Accuracy.
+/// The largest margin of an edge that counts as itself, over the slack of the certificate, which covers it.
+/// Held by the test MergedFaces.CertificatesHoldToTheLast.
+constexpr double kStraight = 1e-3;
 
-/// 1 for an edge's side of which only fronts are seen from a box of receivers, -1 only backs, 0 where that is
-/// not certain.
+/// 1 where only fronts of a side's faces are seen from a box of receivers, -1 where only backs, 0 where
+/// that is not certain.
 PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePlane& plane,
                               const MergedSides::Side& side) {
   if (plane.tolerance < 0.0) return 0;
@@ -25,8 +28,8 @@ PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePl
   return std::abs(v) > off ? (v > 0.0 ? 1 : -1) : 0;
 }
 
-/// A box beside the cone from a receiver to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or below its
-/// tangent plane; by a margin of `slack` at the disk.
+/// A box lies beside the cone from receiver x to the disk, |p.xy - x.xy p.z/x.z| > 1 - p.z/x.z, or below
+/// its tangent plane; by a margin of `slack` at the disk.
 PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const TileReceiver& receiver,
                                 double slack) {
   const Vec3 &x = receiver.x, &n = receiver.normal;
@@ -39,7 +42,7 @@ PENUMBRA_INLINE bool is_outside(const Vec3& middle, const Vec3& half, const Tile
   return glm::dot(n, middle - x) + glm::dot(glm::abs(n), half) < -slack;
 }
 
-/// For all receivers of a shaft what `is_certainly_no_silhouette` asks first.
+/// What `is_certainly_no_silhouette` asks first, for all receivers of a shaft.
 bool is_none_for_all(const Band& band, std::size_t i, const Shaft& shaft) {
   const BandEdge& e = band.edges[i];
   const MergedSides& s = band.sides[i];
@@ -54,19 +57,25 @@ bool is_certainly_no_silhouette(const Band& band, std::size_t i, const TileRecei
   const BandEdge& e = band.edges[i];
   const MergedSides& sides = band.sides[i];
   const Vec3& x = receiver.x;
+  // It lies outside, or its faces all look the same way.
   if (is_outside(sides.middle, sides.half, receiver, slack)) return true;
   const int left = look_from(x, Vec3(0.0), e.left, sides.left),
             right = look_from(x, Vec3(0.0), e.right, sides.right);
   if (left != 0 && left == right) return true;
+
+  // The margin holds only for receivers far from the sides that they see edge-on, unless those lie below.
   const auto is_below = [&](const Vec3& p, double margin) {
     return glm::dot(receiver.normal, p - x) < -margin;
   };
   for (const auto& [looks, side] : {std::pair{left, &sides.left}, std::pair{right, &sides.right}})
     if (looks == 0 && !side->is_flat && !side->is_far(x) && !is_below(side->center, side->radius))
       return false;
+
+  // It lies below the tangent plane, stands for itself, or lies above the receiver.
   if (is_below(e.a, sides.margin + slack) && is_below(e.b, sides.margin + slack)) return true;
   if (sides.margin <= slack * kStraight) return !project_edge(e, x, slack).near;
   if (std::min(e.a.z, e.b.z) - sides.margin > x.z) return true;
+
   // What is seen of it lies within its margin: as if it were an edge of one face, and the disk wider.
   const double below = x.z - std::max(e.a.z, e.b.z) - sides.margin;
   if (!(below > 0.0)) return false;

@@ -1,30 +1,32 @@
-// Silhouette method, the certificate again, for merged edges (merged_edges.h): which of them may stand for a
-// silhouette across the disk although they are none themselves.
+// Silhouette method, step collect: the certificate for merged edges.
 //
-// In: a band of merged edges, receivers. Out: whether what an edge stands for is none for a receiver for
-// certain: its sides' faces look the same way, or what is seen of them lies beside the disk or below the
-// receiver's tangent plane. Few edges leave that open for a tile, and for parts of a tile fewer: they are
-// looked for when first asked for, since most receivers see an edge or have none near.
+// In: a band of merged edges (merge/merged_edges.h), a tile's receivers. Out: whether some edge may stand
+// for a silhouette across the disk although it is none itself. For a receiver it certainly does not where
+//  - what it stands for lies beside the disk, or below the receiver's tangent plane, or
+//  - the faces of both sides look the same way.
+// Few edges leave that open for a tile, and fewer for a part of it. They are looked for only when they are
+// first asked for, since most receivers see an edge anyway, or have none near.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "render/silhouette/collect/edge_list.h"
-#include "render/silhouette/merge/merged_lanes.h"
+#include "render/silhouette/collect/light_band.h"
+#include "render/silhouette/collect/merged_edge_tests.h"
+#include "render/silhouette/collect/shaft.h"
 
 namespace penumbra::detail {
 
 /// For one tile after the other, with memory kept between them.
 class UncertainEdges {
  public:
-  /// A tile, by its list of blocks of the band's edges and its shaft; all three are referred to.
+  /// Begins a tile, given by its list of blocks of the band and its shaft. Refers to all three.
   void begin_tile(const Band& band, const std::vector<NodeMask>& list, const Shaft& shaft);
-  /// Some of the tile's receivers that lie close together: the next ones to be asked for.
+  /// Begins a part of the tile: some of its receivers that lie close together. Refers to them.
   void begin_part(std::span<const TileReceiver> part);
-  /// Whether no edge of the list stands for a silhouette across the disk, with the certificate's slack;
-  /// `receiver` is one of the part's.
+  /// Whether no edge of the list can stand for a silhouette across the disk, by `slack`
+  /// (certificate_slack). `receiver` is one of the part's.
   bool are_none(const TileReceiver& receiver, double slack);
 
  private:
@@ -33,9 +35,10 @@ class UncertainEdges {
     std::int32_t block;
     std::uint32_t edges;
   };
+  /// The edges that the tile's shaft leaves open, and of these the part's.
   void collect();
   void narrow();
-  /// What of them is left for a shaft.
+  /// Appends those of some edges of a block that a shaft leaves open.
   void add(std::int32_t block, std::uint32_t edges, const Shaft& shaft, const FloatShaft& in_float,
            std::vector<EdgesOfBlock>& out) const;
 
@@ -47,7 +50,7 @@ class UncertainEdges {
   std::vector<EdgesOfBlock> of_tile_, of_part_;
 };
 
-/// Of one merged edge.
+/// Whether merged edge i certainly stands for no silhouette across the disk.
 bool is_certainly_no_silhouette(const Band& band, std::size_t i, const TileReceiver& receiver, double slack);
 
 }  // namespace penumbra::detail

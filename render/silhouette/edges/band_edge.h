@@ -1,9 +1,9 @@
-// An edge of a caster between the planes of its faces.
+// Silhouette method, step edges: an edge of a caster, with the planes of its faces.
 //
-// An edge a → b seen from x is a line across the disk. The number of faces that hide a point of the disk
-// jumps there by `jump_at`, faces on its left minus faces on its right, and on which side a face lies is the
-// sign of its plane at x. That is true whether meshes are closed, open, not manifold or inconsistently wound;
-// edges that are no silhouette from x have a jump of 0.
+// An edge a → b, seen from x, is a line across the disk. The number of faces that hide a point of the disk
+// jumps at that line: by the faces on the edge's left minus the faces on its right (`jump_at`). On which
+// side a face lies is the sign of its plane's value at x. This holds for meshes that are closed, open, not
+// manifold or wound inconsistently. An edge that is no silhouette from x has a jump of 0.
 #pragma once
 
 #include <array>
@@ -15,35 +15,41 @@
 
 namespace penumbra::detail {
 
-/// The plane of a face: value(x) = normal·x + offset is x's distance, positive where the face
-/// is seen counter-clockwise. Beyond ±tolerance the sign is that of the exact value for the vertices as
-/// given: with coordinates up to M, each off by a few u M (u = 2^-53), N = E1 × E2 is off by a few u M (|E1|
-/// + |E2|), and that times a distance of at most 4M, over |N|, is what the tolerance bounds (with u = 2^-46).
-/// A face without area has normal 0, and no sign of it is certain.
+/// The plane of a face. value(x) = normal·x + offset is the distance of x from it, positive where the face is
+/// seen counter-clockwise.
+///
+/// A value beyond ±tolerance has the sign of the exact value for the vertices as given. Let M be the
+/// largest coordinate, u = 2^-53, E1 and E2 two sides of the face, N = E1 × E2. Coordinates are off by a
+/// few u M, so N is off by a few u M (|E1| + |E2|). The tolerance bounds that, times a distance of at most
+/// 4 M, over |N|, with 2^-46 in place of u.
+///
+/// A face without area has normal 0 and an infinite tolerance: no sign of it is certain.
 struct FacePlane {
   Vec3 normal;
   double offset, tolerance;
   double value(const Vec3& x) const { return normal.x * x.x + normal.y * x.y + normal.z * x.z + offset; }
 };
 
-/// In place of a face that is missing: surely on neither side.
+/// Stands for the right face of a boundary edge: certain to be on neither side.
 inline const FacePlane kNoFace{Vec3(0.0), 0.0, -1.0};
 
-/// Two lines of the processor's cache, the ends in the first. (Nothing is initialized by itself: a band's
-/// memory is first touched by whoever fills it.)
+/// Two cache lines; the ends are in the first. Members have no initializers, so that the memory of a band is
+/// touched first by the thread that fills it.
 struct alignas(64) BandEdge {
-  Vec3 a, b;              ///< in a band: z ≥ 0
-  FacePlane left, right;  ///< of the faces that run a → b and b → a; kNoFace without a right one
+  /// In a band z ≥ 0.
+  Vec3 a, b;
+  /// Of the faces that run a → b and b → a. `right` is kNoFace for a boundary edge.
+  FacePlane left, right;
   bool has_right() const { return right.tolerance >= 0.0; }
 };
 static_assert(sizeof(BandEdge) == 128);
 
-/// Faces on the left minus faces on the right of a → b, as seen from x.
+/// Faces on the left minus faces on the right of a → b, seen from x: -2 to 2.
 inline int jump_at(const BandEdge& e, const Vec3& x) {
   return (e.left.value(x) > 0.0 ? 1 : -1) + (e.has_right() ? (e.right.value(x) > 0.0 ? -1 : 1) : 0);
 }
 
-/// Of a face with these corners in a frame with coordinates up to `extent`.
+/// The plane of a face with these corners. `extent`: the largest coordinate in the frame, M above.
 inline FacePlane face_plane(const Vec3& a, const Vec3& b, const Vec3& c, double extent) {
   const Vec3 e1 = b - a, e2 = c - a, normal = glm::cross(e1, e2);
   const double length = glm::length(normal);
@@ -53,7 +59,8 @@ inline FacePlane face_plane(const Vec3& a, const Vec3& b, const Vec3& c, double 
   return {n, -glm::dot(n, a), 0x1p-46 * extent * (1.0 + 4.0 * extent * spread)};
 }
 
-/// A mesh's arrays.
+/// A mesh's arrays, and its faces and edges in some frame. `to_frame` takes a position to that frame;
+/// `extent` is the largest coordinate there. Refers to the mesh.
 struct MeshArrays {
   explicit MeshArrays(const TriangleMesh& mesh)
       : positions(mesh.positions()), triangles(mesh.triangles()), edges(mesh.edges()) {}
@@ -61,7 +68,6 @@ struct MeshArrays {
   std::span<const IndexedTriangle> triangles;
   std::span<const Edge> edges;
 
-  /// `to_frame` takes positions to the frame.
   template <class ToFrame>
   std::array<Vec3, 3> corners(FaceId face, const ToFrame& to_frame) const {
     const IndexedTriangle& t = triangles[index(face)];

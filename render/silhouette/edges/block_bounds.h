@@ -1,7 +1,11 @@
-// Bounds of eight neighboring blocks of edges in float, and on which sides of their faces points lie.
+// Silhouette method, step edges: bounds of eight neighboring blocks of edges in float, and tests of all
+// eight at once.
 //
-// All is in float with a margin of 2^-17 M, M the largest coordinate: a sum here has a dozen terms of at most
-// 7 M, each off by 2^-24 of that.
+// In: the bounds of eight blocks (`Children`), and a plane, a box of receivers or a box of their normals.
+// Out: one lane a block, true where the block can be dropped.
+//
+// All is in float with a margin of kBoundsGrain = 2^-17 times M, M the largest coordinate: a sum here has a
+// dozen terms of at most 7 M, each off by 2^-24 of that.
 #pragma once
 
 #include <array>
@@ -12,16 +16,21 @@
 
 namespace penumbra::detail {
 
+/// Accuracy. The margin of sums in float, over the largest coordinate. Held by the tests SceneEdges,
+/// EdgeBlocks and MergedLanes.
 inline constexpr double kBoundsGrain = 0x1p-17;
 
-/// Boxes of eight blocks, and of the planes of their faces the normals and the values at the box's middle;
-/// each a middle and half of a range.
+/// Bounds of eight blocks, a lane each. Ranges are given by their middle and half of their width.
 struct alignas(kFloatLanes * sizeof(float)) Children {
+  /// Of the box of a block's edges, and of the box of the normals of their faces.
   std::array<Floats, 3> middle, half, normal, normal_half;
-  Floats across;  ///< the box's half diagonal in x and y
+  /// Half the diagonal of the box of the edges in x and y.
+  Floats across;
+  /// Of the values of the faces' planes at the middle of the box.
   Floats value, value_half;
 };
 
+/// A box in float.
 struct FloatBox {
   FloatBox() = default;
   FloatBox(const Vec3& m, const Vec3& h) {
@@ -33,24 +42,27 @@ struct FloatBox {
   std::array<float, 3> middle{}, half{};
 };
 
-/// normal·p + offset, more than 0 outside, and how much it varies over half a box.
+/// A plane in float: normal·p + offset is more than 0 outside.
 struct FloatPlane {
   FloatPlane() = default;
+  /// The margin is taken off the offset by the caller.
   FloatPlane(const Vec3& n, double offset_less_margin) : offset(static_cast<float>(offset_less_margin)) {
     for (int k = 0; k < 3; ++k) {
       normal[k] = static_cast<float>(n[k]);
       steep[k] = std::abs(normal[k]);
     }
   }
+  /// True for blocks that lie wholly outside.
   PENUMBRA_INLINE Ints has_outside(const Children& c) const {
     const Floats at = normal[0] * c.middle[0] + normal[1] * c.middle[1] + normal[2] * c.middle[2];
     return at + offset > steep[0] * c.half[0] + steep[1] * c.half[1] + steep[2] * c.half[2];
   }
+  /// `steep`: the magnitudes of the normal's components, so how much the value varies over a box.
   std::array<float, 3> normal, steep;
   float offset;
 };
 
-/// All planes of a block have one sign for receivers in a box.
+/// True for blocks of which all planes have one sign for all receivers in a box.
 PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers) {
   Floats value = c.value, reach = c.value_half;
   for (int k = 0; k < 3; ++k) {
@@ -62,8 +74,8 @@ PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers)
   return magnitude(value) > reach;
 }
 
-/// Blocks wholly below the tangent planes of receivers: normal·(p - middle of the receivers) < lowest for all
-/// normals of a box.
+/// True for blocks that lie wholly below the tangent planes of receivers: normal·(p - m) < lowest for all
+/// normals of a box, m the middle of the receivers.
 PENUMBRA_INLINE Ints are_below(const Children& c, const FloatBox& receivers, const FloatBox& normals,
                                float lowest) {
   Floats highest{};
@@ -75,9 +87,9 @@ PENUMBRA_INLINE Ints are_below(const Children& c, const FloatBox& receivers, con
   return highest < lowest;
 }
 
-/// The same by the planes of the blocks' faces, which is closer where a block lies along the surface and the
-/// normals differ little: a corner p of a face with normal n and a value v at the box's middle m has n·(p -
-/// m) = -v.
+/// The same by the planes of the blocks' faces: a corner p of a face with normal n and value v at the
+/// middle m of the box has n·(p - m) = -v. This is closer where a block lies along the surface and the
+/// normals differ little.
 PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receivers, const FloatBox& normals,
                                float lowest) {
   Floats highest = c.value_half - c.value;
@@ -89,11 +101,12 @@ PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receivers, con
   return highest < lowest;
 }
 
-/// Drops blocks for receivers in a box, by the sides of planes alone.
+/// A test of blocks for `BoundsTree`: drops those whose planes have one sign for all receivers in a box.
 class SidesTest {
  public:
   explicit SidesTest(const FloatBox& receivers) : receivers_(receivers) {}
   SidesTest(const Vec3& middle, const Vec3& half) : receivers_(middle, half) {}
+  /// Bit i is set where block i is dropped.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
     return bits_of(are_one_sided(c, receivers_));
   }

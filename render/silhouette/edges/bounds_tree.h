@@ -1,8 +1,12 @@
-// Bounds of eight neighboring blocks of edges a node, and a tree of them.
+// Silhouette method, step edges: a tree of bounds over blocks of eight edges.
 //
-// In: for each block of eight edges its box, and of their faces' planes a box of normals and the range of
-// values at the middle. Out: a tree of eight children a node, in float with the margins of
-// block_bounds.h; eight siblings are tested at once, and lists name them by their parent and a mask.
+// In: for each block the box of its edges, the box of its faces' normals and the range of its planes'
+// values at the middle. Out: a tree with eight children a node. A test is run from the top; what it drops
+// at a node it drops for all that lies below. Eight children are tested at once, in float with the margins
+// of block_bounds.h. Lists name the blocks that are left by their parent and a mask (`NodeMask`).
+//
+// A test is a class with `std::uint32_t dropped(const Children&) const`, bit i set where child i is
+// dropped, and a function `keep` of its own.
 #pragma once
 
 #include <bit>
@@ -16,13 +20,13 @@
 
 namespace penumbra::detail {
 
-/// Some of eight siblings: bit i of `kept` is child 8 parent + i.
+/// Some of the eight children of a node: bit i of `kept` stands for child 8 parent + i.
 struct NodeMask {
   std::uint32_t parent;
   std::uint32_t kept;
 };
 
-/// Calls visit(block) for every one.
+/// Calls visit(block) for every block of a list, ascending if the list is.
 template <class List, class Visit>
 void for_each_block(const List& list, const Visit& visit) {
   for (const NodeMask& s : list)
@@ -30,19 +34,23 @@ void for_each_block(const List& list, const Visit& visit) {
       visit(std::size_t{s.parent} * kFloatLanes + static_cast<std::size_t>(std::countr_zero(kept)));
 }
 
-/// How many blocks.
+/// How many blocks a list has.
 std::size_t count_blocks(const std::vector<NodeMask>& list);
 
-/// What is known of a block, or of several together. An edge with one face only has no side: `near` is
-/// infinite then.
+/// The bounds of a block, or of several together.
 struct BlockBounds {
-  Vec3 low, high;                ///< of the edges
-  Vec3 normal_low, normal_high;  ///< of their faces' planes
-  double near_low, near_high;    ///< of the planes' values at the box's middle, tolerance included
+  /// The box of the edges.
+  Vec3 low, high;
+  /// The box of their faces' normals.
+  Vec3 normal_low, normal_high;
+  /// The range of the planes' values at the middle of the box, tolerances included. Infinite where an edge
+  /// has one face only: such an edge has no side.
+  double near_low, near_high;
 };
 
-/// Leaves of `in` what the test does not drop; returns how many there are. Every test has one such function,
-/// compiled for several instruction sets.
+/// Writes to `out` those children of the list `in` that the test does not drop, and returns how many
+/// entries that are. Every test has one such function, compiled for several instruction sets with the same
+/// result.
 std::size_t keep(const SidesTest& test, const Children* nodes, const NodeMask* in, std::size_t count,
                  NodeMask* out);
 template <class Test>
@@ -58,7 +66,7 @@ PENUMBRA_INLINE std::size_t keep_with(const Test& test, const Children* nodes, c
   return found;
 }
 
-/// Of one edge or more.
+/// Bounds of the edges first to last, at least one.
 BlockBounds bounds_of_edges(const BandEdge* first, const BandEdge* last);
 
 class BoundsTree {
@@ -66,30 +74,32 @@ class BoundsTree {
   static constexpr std::size_t kFanOut = kFloatLanes;
 
   BoundsTree() = default;
-  /// `extent`: the largest coordinate. Cost O(blocks), on all cores.
+  /// `extent`: the largest coordinate, light radii or what unit the frame has. Cost O(blocks), on all cores.
   BoundsTree(std::vector<BlockBounds> blocks, double extent);
   bool empty() const { return levels_.empty(); }
   const Bounds& box() const { return box_; }
   double extent() const { return extent_; }
-  /// Blocks that the test does not drop, nor what they lie in, ascending.
+  /// The blocks that the test drops neither themselves nor with a node above, ascending. Replaces `out`.
   template <class Test>
   void collect(const Test& test, std::vector<NodeMask>& out) const;
-  /// Blocks whose groups of eight the test does not drop, as many as `collect` finds or more.
+  /// How many blocks lie in groups of eight that the test does not drop: as many as `collect` finds, or more.
   template <class Test>
   std::size_t count_at_most(const Test& test) const;
-  /// Of these blocks those that the test does not drop.
+  /// The blocks of a list that the test does not drop. Replaces `out`.
   void narrow(const std::vector<NodeMask>& list, const SidesTest& test, std::vector<NodeMask>& out) const;
-  /// Bounds of the blocks, by their parents.
+  /// The bounds of blocks 8 i to 8 i + 7 are entry i. Null for a tree without blocks.
   const Children* blocks() const { return levels_.empty() ? nullptr : levels_[0].data(); }
   std::size_t bytes() const;
 
  private:
+  /// `collect` that stops at a level, 0 for the blocks.
   template <class Test>
   void collect_down_to(std::size_t last, const Test& test, std::vector<NodeMask>& out) const;
 
   double extent_ = 1.0;
   Bounds box_;
-  std::vector<LargeArray<Children>> levels_;  ///< blocks first
+  /// The levels of the tree, from the blocks up.
+  std::vector<LargeArray<Children>> levels_;
 };
 
 template <class Test>

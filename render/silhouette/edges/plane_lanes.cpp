@@ -5,7 +5,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Signs of a plane over a box of receivers, 0 where it has none; its tolerance covers the rounding.
+/// The signs of eight planes over a box of receivers; 0 where a plane has no certain sign. The tolerance
+/// covers the rounding of the sums.
 PENUMBRA_INLINE void sides_of(const PlaneLanes& plane, const FloatBox& box, Ints& out) {
   const auto& [m, half] = box;
   const Floats value = plane.x * m[0] + plane.y * m[1] + plane.z * m[2] + plane.offset;
@@ -15,7 +16,7 @@ PENUMBRA_INLINE void sides_of(const PlaneLanes& plane, const FloatBox& box, Ints
   out = (magnitude(value) > least) & ((value > 0.0f) - (value < 0.0f));
 }
 
-/// The same for a point, from the planes' origin.
+/// The same for a point in the coordinates of the planes.
 PENUMBRA_INLINE void sides_of(const PlaneLanes& plane, const std::array<float, 3>& p, Ints& out) {
   const Floats value = plane.x * p[0] + plane.y * p[1] + plane.z * p[2] + plane.offset;
   const float grain = 0x1p-20f * (std::abs(p[0]) + std::abs(p[1]) + std::abs(p[2]));

@@ -1,4 +1,8 @@
-// The planes of eight edges' faces in float.
+// Silhouette method, step edges: the planes of eight edges' faces in float, and which edges may be
+// silhouettes.
+//
+// In: eight edges, and a receiver or a box of receivers. Out: a bit an edge, clear where both faces are
+// certain to be on the same side for all the receivers: the edge is then no silhouette for any of them.
 #pragma once
 
 #include "render/silhouette/edges/band_edge.h"
@@ -7,8 +11,9 @@
 
 namespace penumbra::detail {
 
-/// value(x) = (x, y, z)·p + offset as FacePlane has it; beyond ±tolerance its sign is certain for |p| up to
-/// twice the extent that it was made for. A face that is missing has value 0 and tolerance -1.
+/// Eight planes. A plane's value at p is (x, y, z)·p + offset, as for FacePlane. Beyond ±tolerance its sign
+/// is certain, for |p| up to twice the extent that it was made for. A face that is missing has value 0 and
+/// tolerance -1.
 struct alignas(kFloatLanes * sizeof(float)) PlaneLanes {
   Floats x, y, z, offset, tolerance;
 
@@ -22,6 +27,7 @@ struct alignas(kFloatLanes * sizeof(float)) PlaneLanes {
   }
 };
 
+/// The planes of eight edges.
 struct EdgePlanes {
   PlaneLanes left, right;
 
@@ -29,7 +35,7 @@ struct EdgePlanes {
     left.set(lane, edge.left, extent);
     right.set(lane, edge.right, extent);
   }
-  /// No edge: two faces that look the same way wherever they are seen from, however large what sees them.
+  /// A lane without an edge: two faces that are on the same side for every receiver.
   void set_none(std::size_t lane) {
     const FacePlane front{Vec3(0.0), 1e30, -1.0};
     left.set(lane, front, 1.0);
@@ -37,7 +43,8 @@ struct EdgePlanes {
   }
 };
 
-/// A point in two floats a coordinate: its difference to a float nearby is as exact as floats are.
+/// A point in two floats a coordinate, so that its difference to a nearby float is exact to a rounding of the
+/// difference.
 struct SplitPoint {
   explicit SplitPoint(const Vec3& p) {
     for (int k = 0; k < 3; ++k) {
@@ -48,13 +55,15 @@ struct SplitPoint {
   std::array<float, 3> high, low;
 };
 
-/// The same planes with coordinates that start in the edges' midst: for points nearby sides are certain
-/// beyond 2^-20 of their distance, instead of that of the whole scene's size.
+/// The planes of eight edges in coordinates that start at the edges. For a nearby point its sides are
+/// certain beyond 2^-20 of its distance from the edges, instead of 2^-20 of the size of the scene.
 struct LocalPlanes {
   EdgePlanes planes;
+  /// Where the coordinates start. To be set before any edge.
   std::array<float, 3> origin;
 
   void set(std::size_t lane, BandEdge edge) {
+    // Shift the planes to the origin.
     for (FacePlane* plane : {&edge.left, &edge.right}) {
       const double shift =
           plane->normal.x * origin[0] + plane->normal.y * origin[1] + plane->normal.z * origin[2];
@@ -63,6 +72,7 @@ struct LocalPlanes {
     }
     planes.set(lane, edge, 0.0);
   }
+  /// The point in the coordinates of the planes.
   std::array<float, 3> from_origin(const SplitPoint& p) const {
     std::array<float, 3> out;
     for (int k = 0; k < 3; ++k) out[k] = (p.high[k] - origin[k]) + p.low[k];
@@ -70,14 +80,16 @@ struct LocalPlanes {
   }
 
  private:
-  static constexpr double kRounding = 0x1p-36;  // of doubles, even with the light far outside of the scene
+  /// Accuracy. What rounding of doubles adds to a value in [-1, 1], also with the light far outside of the
+  /// scene. Held by the test LocalPlanes.
+  static constexpr double kRounding = 0x1p-36;
 };
 
-/// As below, for one receiver.
-std::uint32_t may_be_silhouettes(const LocalPlanes& block, const SplitPoint& receiver);
-
-/// Bit i is clear where both faces of edge i keep one side over a box of receivers, the same: then it is not
-/// on the silhouette for any of them. Compiled for several instruction sets with the same result.
+/// Bit i is clear where both faces of edge i are certain to be on the same side for all receivers of a box.
+/// Compiled for several instruction sets with the same result.
 std::uint32_t may_be_silhouettes(const EdgePlanes& block, const FloatBox& receivers);
+
+/// The same for one receiver.
+std::uint32_t may_be_silhouettes(const LocalPlanes& block, const SplitPoint& receiver);
 
 }  // namespace penumbra::detail

@@ -7,19 +7,24 @@
 #include <glm/vector_relational.hpp>
 
 #include "mesh/vectors.h"
-#include "render/silhouette/collect/light_band.h"
 
 namespace penumbra::detail {
 namespace {
 
-constexpr std::size_t kGroup = 256;    // points
-constexpr double kRounding = 0x1p-46;  // of coordinates
+// Accuracy.
+/// What rounding may add to a box, over the largest coordinate. Held by the test PointGroups.
+constexpr double kRounding = 0x1p-46;
+
+// Speed.
+/// Points a group. More make each group that reaches a side of the box dearer, fewer make more groups. Seen
+/// in the benchmark `silhouette`, stage band.
+constexpr std::size_t kGroup = 256;
 
 std::span<const Vec3> group(std::span<const Vec3> points, std::size_t i) {
   return points.subspan(i * kGroup, std::min(kGroup, points.size() - i * kGroup));
 }
 
-/// Around a box in the light's frame.
+/// A box in the light's frame around a box of the world.
 Bounds around(const Bounds& world, const UnitLight& light) {
   const Vec3 middle = light.point(world.center()), half = 0.5 * (world.high - world.low);
   const double far = std::max(largest_component(world.low), largest_component(world.high));

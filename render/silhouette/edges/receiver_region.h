@@ -1,5 +1,9 @@
-// A tile's receivers and the light together, in the frame of rays: where hierarchies of a whole scene are
-// asked for the few edges that matter to a tile.
+// Silhouette method, step edges: a few receivers and the light together, as a test of a whole scene's
+// hierarchies.
+//
+// In: the planes around the receivers and the disk, the receivers, their normals; all in the frame of rays.
+// Out: a test for `BoundsTree` that drops blocks of edges that matter to none of these receivers. It serves
+// where few receivers are left, so that looking for their edges costs less than making the light's band.
 #pragma once
 
 #include <array>
@@ -12,35 +16,38 @@
 
 namespace penumbra::detail {
 
-/// Drops blocks outside of a convex region, and those whose planes have one sign for all receivers.
+/// Drops blocks outside of a convex region, blocks below the receivers' tangent planes, and blocks whose
+/// planes have one sign for all receivers. Made by `Shaft::region`. Coordinates of edges are up to 1, those
+/// of receivers up to 4.
 class ReceiverRegion {
  public:
+  /// As many as a `Shaft` has.
   static constexpr std::size_t kPlanes = 17;
   struct Plane {
     Vec3 normal;  ///< unit
     double offset;
   };
   ReceiverRegion() = default;
-  /// Planes are more than 0 outside; `middle` and `half`: the box of the receivers. For coordinates up to 1,
-  /// and for receivers up to 4.
+  /// Planes are more than 0 outside. `middle` and `half`: the box of the receivers.
   ReceiverRegion(const std::array<Plane, kPlanes>& planes, const Vec3& middle, const Vec3& half)
       : receivers_(middle, half + kBoundsGrain) {
     for (std::size_t k = 0; k < kPlanes; ++k)
       planes_[k] = FloatPlane(planes[k].normal, planes[k].offset - 4.0 * kBoundsGrain);
   }
-  /// Also drops what is below all tangent planes: normal·(p - middle) < lowest for all normals of a box.
+  /// Also drops what is below all tangent planes: normal·(p - m) < lowest for all normals of a box, m the
+  /// middle of the receivers. `middle` and `half`: the box of the normals.
   void add_horizon(const Vec3& middle, const Vec3& half, double lowest) {
     normals_ = FloatBox(middle, half + kBoundsGrain);
     lowest_ = static_cast<float>(lowest - 4.0 * kBoundsGrain);
   }
-  /// Bit i is set for block i.
+  /// Bit i is set where block i is dropped.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
     Ints out = are_one_sided(c, receivers_);
     for (const FloatPlane& p : planes_) out |= p.has_outside(c);
     return bits_of(out | are_below(c, receivers_, normals_, lowest_) |
                    are_under(c, receivers_, normals_, lowest_));
   }
-  /// The receivers themselves.
+  /// One of the receivers.
   class Point {
    public:
     Point(const Vec3& at, const Vec3& normal)
@@ -50,8 +57,9 @@ class ReceiverRegion {
           box_(at, Vec3(kPointGrain)),
           normals_(normal, Vec3(kPointGrain)) {}
     const SplitPoint& at() const { return split_; }
+    /// A point is certain to lie below the receiver's tangent plane.
     bool is_below(const Vec3& p) const { return glm::dot(normal_, p - at_) < -0x1p-44; }
-    /// Bit i is set for block i: one-sided, or below the tangent plane.
+    /// Bit i is set where block i is one-sided, or below the tangent plane.
     PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
       constexpr float kLowest = -16.0f * kPointGrain;
       return bits_of(are_one_sided(c, box_) | are_below(c, box_, normals_, kLowest) |
@@ -59,6 +67,8 @@ class ReceiverRegion {
     }
 
    private:
+    /// Accuracy. What rounding to float adds to a coordinate. Held by the test
+    /// SceneEdges.LoseNothingThatAReceiverSees.
     static constexpr float kPointGrain = 0x1p-23f;
     Vec3 at_, normal_;
     SplitPoint split_;
@@ -77,7 +87,7 @@ class ReceiverRegion {
 
 std::size_t keep(const ReceiverRegion& test, const Children* nodes, const NodeMask* in, std::size_t count,
                  NodeMask* out);
-/// Those of eight siblings that a receiver may have to look at.
+/// Of some children of a node those that a receiver does not drop, as bits.
 std::uint32_t kept_by(const ReceiverRegion::Point& receiver, const Children* nodes, const NodeMask& mask);
 
 }  // namespace penumbra::detail

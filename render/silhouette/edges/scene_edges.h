@@ -1,13 +1,15 @@
-// All edges of a scene's casters, and which of them may belong to a light's silhouette band.
+// Silhouette method, step edges: all edges of a scene's casters, and which of them may be in a light's band.
 //
-// In: casters, once. Out: for any disk light, the edges of its band (volumes/silhouettes.h) without a look at
-// every face. Edges that lie close together are neighbors, eight a block (halved across the longest side,
-// over and over); over the blocks stands a hierarchy of boxes and of the planes of their faces
-// (bounds_tree.h). Where all faces of a block look at the light, or all away from it, none of its edges is in
-// the band; and the share of those blocks grows with the mesh.
+// In: the casters, once. Out: for any disk light, the edges of its silhouette band (volumes/silhouettes.h),
+// without a look at every face.
 //
-// All is in float, in the frame of rays. Where that leaves a doubt an edge is kept: a few more than the band
-// has do no harm, since what an edge does to a receiver is decided for that receiver.
+// Edges that lie close together are neighbors, eight a block: the edges are halved across the longest side
+// of their box, over and over. A tree of bounds stands over the blocks (bounds_tree.h). Where all faces of
+// a block look at the light, or all away from it, none of its edges is in the band. The share of such
+// blocks grows with the mesh.
+//
+// All is in float, in the frame of rays: (p - origin) · scale. Where floats leave it open an edge is kept.
+// A few edges more than the band has do no harm, since each receiver decides for itself what an edge does.
 #pragma once
 
 #include <array>
@@ -26,14 +28,16 @@
 namespace penumbra::detail {
 
 struct SceneEdge {
-  std::uint32_t object;  ///< index in the scene
-  EdgeId id;             ///< of its mesh
+  /// Index in the scene.
+  std::uint32_t object;
+  /// An edge of its mesh.
+  EdgeId id;
 };
 
-/// A light in float, in the frame of the edges.
+/// A disk light in float, in the frame (p - origin) · scale. Doubles are rounded with a margin.
 struct FloatDisk {
-  /// In the frame (p - origin) · scale.
   FloatDisk(const DiskLight& light, const Vec3& origin, double scale);
+  /// Around the disk.
   FloatBox box;
   SplitPoint center;
   std::array<float, 3> normal;
@@ -45,32 +49,37 @@ class SceneEdges {
   /// In the frame (p - origin) · scale, which takes all of the scene into [-1, 1]. Cost O(E log E), most of
   /// it on all cores; some 60 bytes an edge.
   SceneEdges(const Scene& scene, const Vec3& origin, double scale);
-  /// Those of the light's band, neighbors close together, but for objects whose flag in `cannot_occlude` (one an
-  /// object, or none) is set. Cost O(band + √E), on all cores.
+  /// The edges of the light's band, neighbors close together. `cannot_occlude`: a flag an object, or none
+  /// at all; edges of objects whose flag is set are left out. Cost O(band + √E), on all cores.
   std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> cannot_occlude) const;
-  /// At least as many as these, within a few times. Cost O(√E) where the surface is fine.
+  /// As many edges as `band_of` has, or up to a few times as many. Cost O(√E) where the surface is fine.
   std::size_t size_of_band(const DiskLight& light) const;
-  /// Of these what may matter to the receivers of some regions. Cost: some 10 μs a region on a fine surface.
+  /// Of the band those edges that may matter to the receivers of some regions. Cost: some 10 μs a region on
+  /// a fine surface.
   std::vector<SceneEdge> band_for(std::span<const ReceiverRegion> regions, const Scene& scene,
                                   const DiskLight& light, std::span<const char> cannot_occlude) const;
   std::size_t size() const { return edges_.size(); }
-  /// Of one object that casts, by its index in the scene.
+  /// The points of an object that casts, by its index in the scene.
   const PointGroups& points(std::size_t object) const { return points_[object]; }
+  /// Units of the frame in one scene unit.
   double scale() const { return scale_; }
   std::size_t bytes() const;
 
  private:
+  /// Sets the bits of those edges, block by block, that a region's receivers have to look at.
   void mark_needed(const ReceiverRegion& region, const Scene& scene,
                    std::vector<std::atomic<std::uint8_t>>& needed) const;
-  /// Some edges of a block, bit by bit, but for those of objects that cannot occlude.
+  /// Appends the edges of a block whose bits are set, without those of objects that cannot occlude.
   void add_block(std::size_t block, std::uint32_t edges, std::span<const char> cannot_occlude,
                  std::vector<SceneEdge>& out) const;
 
   Vec3 origin_;
   double scale_;
   LargeArray<SceneEdge> edges_;
-  LargeArray<LocalPlanes> planes_;  ///< of eight edges each
+  /// One entry a block.
+  LargeArray<LocalPlanes> planes_;
   BoundsTree tree_;
+  /// One entry an object; without points for objects that do not cast.
   std::vector<PointGroups> points_;
 };
 

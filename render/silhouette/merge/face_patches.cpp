@@ -15,10 +15,19 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr std::size_t kLevels = 12;  // the largest patch has 2^11 times as many flats as the smallest
+// Accuracy.
+/// The most that normals of a patch differ from their mean. Held by the test
+/// FacePatches.NoClosedSurfaceIsWithinOne.
 constexpr double kMostTilt = 0.5;
-constexpr double kNothing = 0x1p-36;  // of a patch's radius, an error by rounding
-constexpr double kFlat = 1e-4;  // between normals of faces that lie in one plane, but for rounding to float
+/// An error that is rounding, over the radius of the patch. Held by the test FacePatches.AFlatSideIsOne.
+constexpr double kNothing = 0x1p-36;
+/// The difference of unit normals of neighboring faces that lie in one plane, but for rounding to float.
+/// Held by the test FacePatches.AFlatSideIsOne.
+constexpr double kFlat = 1e-4;
+
+// Speed.
+/// The largest patch has 2^(kLevels - 1) times as many flats as the smallest. Seen in the benchmark `growth`.
+constexpr std::size_t kLevels = 12;
 
 using Corners = std::array<Vec3, 3>;
 
@@ -27,6 +36,7 @@ Corners corners_of(const TriangleMesh& mesh, std::size_t face) {
   return {mesh.positions()[a], mesh.positions()[b], mesh.positions()[c]};
 }
 
+/// The area as a vector along the normal.
 Vec3 area_of(const Corners& c) {
   return 0.5 * glm::cross(c[1] - c[0], c[2] - c[0]);
 }
@@ -49,7 +59,7 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// A number for each face, the same in a flat, without gaps; returns how many.
+/// Numbers flats from 0 up, writes its flat's number for each face, and returns how many flats there are.
 std::uint32_t number_flats(const TriangleMesh& mesh, std::vector<std::uint32_t>& out) {
   std::vector<Vec3> normals(out.size());
   tbb::parallel_for(std::size_t{0}, out.size(),
@@ -70,26 +80,29 @@ std::uint32_t number_flats(const TriangleMesh& mesh, std::vector<std::uint32_t>&
 }
 
 struct Placed {
-  std::array<float, 6> at{};  ///< middle, and normal times a length
+  /// The middle of the flat, and its normal times a length.
+  std::array<float, 6> at{};
   std::uint32_t flat = 0;
 };
 
-/// What a patch's error is told by, and adds up: Σ a_f |t_f|² is 2 (Σ a_f - |Σ a_f n_f|), and Σ a_f |t_f| no
-/// more than the root of that times Σ a_f.
+/// Sums over faces that tell the error of a patch: Σ a_f |t_f|² = 2 (Σ a_f - |Σ a_f n_f|), and Σ a_f |t_f|
+/// is no more than the root of that times Σ a_f.
 struct Sums {
   Vec3 areas{0.0};
   double area = 0.0;
   Sums operator+(const Sums& o) const { return {areas + o.areas, area + o.area}; }
-  /// Without what the faces' places add to it.
+  /// Without the part that comes from where the faces lie.
   float error() const {
     return static_cast<float>(0.5 * std::sqrt(2.0 * std::max(0.0, area - glm::length(areas))));
   }
 };
 
-/// Flats, those that lie close together in a row. Such that look the same way are close: at a crease they are
-/// parted before they are parted along the surface, unless they lie farther apart than a quarter of the mesh.
+/// Flats in an order in which every `group` in a row lie close together. The normal counts as a part of the
+/// place: flats on two sides of a crease are parted before flats along the surface, unless those lie
+/// farther apart than a quarter of the mesh.
 std::vector<Placed> placed_flats(const TriangleMesh& mesh, std::uint32_t count,
-                                 const std::vector<std::uint32_t>& flat) {
+                                 const std::vector<std::uint32_t>& flat, std::size_t group) {
+  // The middle and the normal of each flat.
   std::vector<Vec3> middles(count, Vec3(0.0)), areas(count, Vec3(0.0));
   std::vector<double> weights(count, 0.0);
   for (std::size_t i = 0; i < flat.size(); ++i) {
@@ -100,6 +113,8 @@ std::vector<Placed> placed_flats(const TriangleMesh& mesh, std::uint32_t count,
     middles[flat[i]] += weight / 3.0 * (c[0] + c[1] + c[2]);
     weights[flat[i]] += weight;
   }
+
+  // Sort by both.
   const Bounds box = bounds_of(mesh.positions());
   const double length = 0.25 * box.radius();
   std::vector<Placed> out(count);
@@ -111,16 +126,17 @@ std::vector<Placed> placed_flats(const TriangleMesh& mesh, std::uint32_t count,
     }
     out[i].flat = i;
   });
-  order_by_place(out.data(), out.data() + out.size(), std::size_t{8});
+  order_by_place(out.data(), out.data() + out.size(), group);
   return out;
 }
 
 }  // namespace
 
 FacePatches::FacePatches(const TriangleMesh& mesh) : corners_(mesh.triangles().size()) {
+  // Faces, flat by flat.
   const std::size_t count = mesh.triangles().size();
   std::vector<std::uint32_t> flat(count);
-  const std::vector<Placed> placed = placed_flats(mesh, number_flats(mesh, flat), flat);
+  const std::vector<Placed> placed = placed_flats(mesh, number_flats(mesh, flat), flat, kFewest);
   std::vector<std::uint32_t> sizes(placed.size(), 0), next(placed.size());
   for (const std::uint32_t f : flat) ++sizes[f];
   begins_.push_back(0);
@@ -131,6 +147,7 @@ FacePatches::FacePatches(const TriangleMesh& mesh) : corners_(mesh.triangles().s
   order_.resize(count);
   for (std::uint32_t i = 0; i < count; ++i) order_[next[flat[i]]++] = i;
 
+  // Lower bounds of the errors of runs of flats, level by level.
   std::vector<Sums> sums((flats() + kFewest - 1) / kFewest);
   tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t node) {
     for (std::size_t i = begins_[node * kFewest]; i < begins_[last_of(0, node)]; ++i) {
@@ -153,10 +170,11 @@ std::size_t FacePatches::last_of(std::size_t level, std::size_t node) const {
   return std::min(((node + 1) * kFewest) << level, flats());
 }
 
-/// Of the faces at places first to last.
 FacePatch FacePatches::patch(std::size_t first, std::size_t last) const {
   FacePatch out;
   out.first = FaceId{order_[first]};
+
+  // The mean plane, and the center on it.
   Vec3 sum(0.0), middle(0.0);
   double area = 0.0;
   for (std::size_t i = first; i < last; ++i) {
@@ -174,6 +192,8 @@ FacePatch FacePatches::patch(std::size_t first, std::size_t last) const {
   for (std::size_t i = first; i < last; ++i)
     height += glm::dot(area_of(corners_[i]), corners_[i][0] - middle);
   out.center = middle + (height / length) * out.normal;
+
+  // How far the faces are from it.
   double turned = 0.0, apart = 0.0;
   for (std::size_t i = first; i < last; ++i) {
     for (const Vec3& p : corners_[i]) {
@@ -197,7 +217,6 @@ FacePatch FacePatches::patch(std::size_t first, std::size_t last) const {
   return out;
 }
 
-/// Of the flats first to last, where that keeps the tolerance; its faces get its place in `patches`.
 bool FacePatches::add_patch(std::size_t first, std::size_t last, double tolerance, Partition& out,
                             std::vector<FacePatch>& patches) const {
   const FacePatch whole = patch(begins_[first], begins_[last]);
@@ -208,7 +227,6 @@ bool FacePatches::add_patch(std::size_t first, std::size_t last, double toleranc
   return true;
 }
 
-/// The node's patch, or those of its parts, or of its flats.
 void FacePatches::add(std::size_t level, std::size_t node, double tolerance, Partition& out,
                       std::vector<FacePatch>& patches) const {
   const std::size_t first = (node * kFewest) << level, last = last_of(level, node);
@@ -225,12 +243,15 @@ void FacePatches::add(std::size_t level, std::size_t node, double tolerance, Par
 }
 
 FacePatches::Partition FacePatches::partition(double tolerance) const {
+  // The patches of each node of the top level, numbered from 0.
   Partition out;
   out.side.resize(order_.size());
   const std::size_t top = errors_.size() - 1, nodes = errors_[top].size();
   std::vector<std::vector<FacePatch>> patches(nodes);
   tbb::parallel_for(std::size_t{0}, nodes,
                     [&](std::size_t node) { add(top, node, tolerance, out, patches[node]); });
+
+  // All of them in a row.
   for (std::size_t node = 0; node < nodes; ++node) {
     const auto before = static_cast<std::uint32_t>(out.patches.size());
     for (std::size_t i = begins_[(node * kFewest) << top]; i < begins_[last_of(top, node)]; ++i)

@@ -1,19 +1,17 @@
-// Levels of merged edges: what is left of a fine mesh's edges where patches of faces are taken for one.
+// Silhouette method, step merge: levels of detail of a scene's edges, for casters finer than a silhouette
+// can tell.
 //
-// In: casters, once. Out: for tolerances that double from level to level, the edges between patches
-// (face_patches.h), with chains of edges between the same two patches replaced by one from end to end. The
-// surface stays as closed as it was, since every chain keeps its ends. A level moves the silhouette that x
-// sees at p by at most `deviation` · |x - p| · (what x sees at p is magnified by), not counting where it moves
-// within the surface: a chain between patches that look almost the same way is seen edge-on, so that of the
-// area S between chain and edge only the part across the surface counts, and of that along it as much as the
-// patches' normals differ.
+// In: the casters, once. Out: for tolerances that double from level to level, the edges between patches of
+// faces (face_patches.h), with chains of edges between the same two patches merged to one
+// (caster_merger.h). The surface stays as closed as it was, since every chain keeps its ends.
 //
-// Casters of few faces and faces that no patch holds stay as they are, with nothing moved.
+// What is bounded: a receiver x sees the silhouette at p displaced by at most
+//   deviation · |x - p| · (how much x sees p magnified),
+// not counting displacements within the surface. Casters of few faces and faces that no patch holds stay as
+// they are, with a deviation of 0.
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <span>
@@ -22,66 +20,30 @@
 #include "penumbra/render/scene/scene.h"
 #include "render/silhouette/edges/bounds_tree.h"
 #include "render/silhouette/merge/face_patches.h"
+#include "render/silhouette/merge/merged_block.h"
 
 namespace penumbra::detail {
 
-struct MergedEdge {
-  static constexpr std::uint32_t kNoSide = 0xffffffffu;
-  std::uint32_t object;       ///< index in the scene
-  VertexId from, to;          ///< of its mesh
-  std::uint32_t left, right;  ///< as in FacePatches::Cut::side; kNoSide without a right one
-  float deviation = 0.0f;     ///< see above; scene units
-  float margin = 0.0f;        ///< what it stands for is seen at most that far beside it; scene units
-};
-
-/// What the two sides of an edge stand for, in some frame. Where x sees a patch from both sides it sees it
-/// edge-on: it lies in a slab that is `thick` either way, x is no farther from the middle of that than its
-/// faces' planes differ there, and so the patch is a strip whose outline runs all along it. With x twice the
-/// patch's radius away the strip is seen as wide as 2 (thick + spread + radius · tilt) would be at the patch.
-/// So nothing of it is seen farther from its outline than that, nor farther from the edges in place of its
-/// outline than that and what they were straightened by: `margin`.
-struct MergedSides {
-  struct Side {
-    Vec3 center{0.0};
-    double radius = 0.0;              ///< of a ball around the faces; 0 where one face is alone
-    double tilt = 0.0, spread = 0.0;  ///< planes differ by tilt · distance from the center + spread at most
-    bool is_flat = true;              ///< but for rounding (FacePatch)
-    double reach(const Vec3& x) const {  // the sum of components is no less than the distance, and cheaper
-      return tilt * (std::abs(x.x - center.x) + std::abs(x.y - center.y) + std::abs(x.z - center.z)) + spread;
-    }
-    bool is_far(const Vec3& x) const { return glm::distance(x, center) >= 2.0 * radius; }
-  };
-  Side left, right;
-  double margin = 0.0;
-  Vec3 middle{0.0}, half{0.0};  ///< of a box around the edge, with its margin, and the faces of curved sides
-};
-
-/// Eight edges that lie close together, in some frame.
-struct MergedBlock {
-  static constexpr std::size_t kEdges = BoundsTree::kFanOut;
-  std::size_t count = 0;
-  std::array<BandEdge, kEdges> edges;
-  std::array<MergedSides, kEdges> sides;
-  float deviation = 0.0f;  ///< the largest; scene units
-  /// Each edge's box.
-  void make_boxes();
-  /// Of the edges and of all faces that they stand for; requires boxes.
-  BlockBounds bounds() const;
-};
-
+/// One level of detail.
 struct MergedLevel {
-  std::vector<MergedEdge> edges;                ///< neighbors lie close together
-  std::vector<std::vector<FacePatch>> patches;  ///< of each object
-  BoundsTree tree;                              ///< over the blocks, in the frame of rays
-  double deviation = 0.0;                       ///< of those edges that are moved the mean; scene units
+  /// Neighbors lie close together, eight a block.
+  std::vector<MergedEdge> edges;
+  /// One list an object.
+  std::vector<std::vector<FacePatch>> patches;
+  /// Over the blocks, in the frame of rays.
+  BoundsTree tree;
+  /// The mean over those edges of which it is not 0. Scene units.
+  double deviation = 0.0;
 
-  /// Block i in a frame with point(p), direction(d) and per_unit(), with coordinates up to `extent`.
+  /// Block i in some frame. `frame` has point(p) and direction(d), which take a point and a vector of the
+  /// world there, and per_unit(), its units in one scene unit. `extent`: the largest coordinate there.
   template <class Frame>
   MergedBlock block(const Scene& scene, std::size_t i, const Frame& frame, double extent) const;
   std::size_t block_count() const { return (edges.size() + MergedBlock::kEdges - 1) / MergedBlock::kEdges; }
   std::size_t bytes() const;
 
  private:
+  /// The plane of one side of an edge, and into `out` what the side stands for.
   template <class Frame>
   FacePlane side(const Scene& scene, const MergedEdge& e, std::uint32_t side, const Frame& frame,
                  double extent, MergedSides::Side& out) const;
@@ -89,12 +51,13 @@ struct MergedLevel {
 
 class MergedEdges {
  public:
-  /// In the frame (p - origin) · scale. Cost O(F log F) in the faces of large casters, on all cores.
+  /// The trees are in the frame (p - origin) · scale. Cost O(F log F) for the faces F of large casters, on
+  /// all cores.
   MergedEdges(const Scene& scene, const Vec3& origin, double scale);
-  /// Coarsest last; none where merging does not pay.
+  /// The coarsest last. None where merging does not pay.
   const std::vector<MergedLevel>& levels() const { return levels_; }
-  /// Blocks of a level with faces of which the light may see both sides, ascending; without those of objects
-  /// whose flag in `cannot_occlude` (one an object, or none) is set.
+  /// The blocks of a level that may hold an edge of the light's band, ascending. `cannot_occlude`: a flag
+  /// an object, or none at all; blocks with edges only of objects whose flag is set are left out.
   std::vector<std::uint32_t> blocks_of(const MergedLevel& level, const DiskLight& light,
                                        std::span<const char> cannot_occlude) const;
   std::size_t bytes() const;

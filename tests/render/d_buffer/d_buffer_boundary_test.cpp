@@ -68,9 +68,10 @@ TEST(DBufferBoundary, IsExactFromEdgeToEdge) {
     const RayScene rays(scene, 0);
     const SurfaceBuffer surface = grid(6.0);
     DBuffer buffer(*context, scene, rays);
-    buffer.set_surface(surface);
-    const auto visibility = buffer.render(scene.light, {.size = 1024, .check = EntryCheck::kNone}).visibility;
-    const auto truth = silhouette_visibility(scene, rays, surface).visibility;
+    buffer.set_surface(surface.receivers());
+    const auto visibility =
+        buffer.render(testing::light_of(scene), {.size = 1024, .check = EntryCheck::kNone}).visibility;
+    const auto truth = testing::see_silhouettes(scene, rays, surface).visibility;
     double sum = 0.0, worst = 0.0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) {

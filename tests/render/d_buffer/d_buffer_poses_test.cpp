@@ -81,8 +81,8 @@ TEST(DBufferPoses, NoLeaksSpecksSeamsOrAcne) {
     const Scene scene = testing::load_pose(pose);
     const View view(scene, kWidth, kHeight);
     DBuffer buffer(*context, scene, view.rays);
-    buffer.set_surface(view.surface);
-    const Values v = buffer.render(scene.light, {}).visibility;
+    buffer.set_surface(view.surface.receivers());
+    const Values v = buffer.render(testing::light_of(scene), {}).visibility;
     const Tally t = judge(v, view.trace(testing::every_pixel(view.surface), 256, 5), view.surface);
     std::printf("%-20s penumbra %5zu, off by .5: %4zu, outside: %4zu\n", pose.name.c_str(), t.penumbra,
                 t.far_off, t.outside);
@@ -106,11 +106,11 @@ TEST(DBufferPoses, VisibilityMayRiseWhereACasterIsAddedButSeldom) {
     const auto render = [&] {
       const RayScene rays(scene, 0);
       DBuffer buffer(*context, scene, rays);
-      buffer.set_surface(view.surface);
-      return buffer.render(scene.light, {}).visibility;
+      buffer.set_surface(view.surface.receivers());
+      return buffer.render(testing::light_of(scene), {}).visibility;
     };
     const Values before = render();
-    const Vec3 between = 0.4 * scene.light.center + 0.6 * scene.bounds().center();
+    const Vec3 between = 0.4 * testing::light_of(scene).center + 0.6 * scene.bounds().center();
     scene.objects.push_back({"added", make_box(between, {0.2, 0.1, 0.3}), Vec3(0.8), true});
     const Values after = render();
     for (std::size_t i = 0; i < after.size(); ++i) rises += after[i] > before[i] + 0.01f;

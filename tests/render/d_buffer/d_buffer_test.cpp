@@ -32,8 +32,8 @@ gl::Context& context() {
 DBufferFrame draw(const Scene& scene, const SurfaceBuffer& surface, const DBufferOptions& options) {
   const RayScene rays(scene, 0);
   DBuffer buffer(context(), scene, rays);
-  buffer.set_surface(surface);
-  return buffer.render(scene.light, options);
+  buffer.set_surface(surface.receivers());
+  return buffer.render(testing::light_of(scene), options);
 }
 
 DBufferFrame draw(const Scene& scene, const SurfaceBuffer& surface, int size = 0) {
@@ -122,8 +122,9 @@ TEST(DBuffer, EveryOptionBeatsTheHardShadow) {
   const Scene scene = testing::data_scene("torus-medium");
   const View view(scene, 160, 120);
   const Pixels floor = testing::pixels_of(view.surface, 0);
-  const Values hard =
-      trace_hard(scene, view.rays, view.surface, testing::every_pixel(view.surface)).visibility;
+  const Values hard = trace_hard(view.rays, testing::light_of(scene), view.surface.receivers(),
+                                 testing::every_pixel(view.surface))
+                          .visibility;
   const double worst = error_over_penumbra(view, hard, floor).rmse;
   for (const auto center : {CenterTest::kRay, CenterTest::kDepth})
     for (const auto conflict : {Conflict::kNearest, Conflict::kFurthest})
@@ -167,7 +168,7 @@ TEST(DBuffer, FarFromCastersIsTheHorizonsFraction) {
       const Vec3& p = view.surface.position[i];
       if (view.surface.object[i] != 0 || p.y < 0.0 || std::hypot(p.x, p.z) < 9.0) continue;
       ++far;
-      ASSERT_NEAR(v[i], fraction_above_horizon(scene.light, p, view.surface.normal[i]), 1e-5)
+      ASSERT_NEAR(v[i], fraction_above_horizon(testing::light_of(scene), p, view.surface.normal[i]), 1e-5)
           << name << ", pixel " << i;
     }
     EXPECT_GT(far, 500) << name;
@@ -187,19 +188,20 @@ SurfaceBuffer scattered_receivers(std::uint64_t seed, const DiskLight& light, in
 
 TEST(DBuffer, WithoutCastersIsTheHorizonsFraction) {
   Scene scene;
-  scene.light = {{0.3, 5, 0.2}, {0.2, -1, 0.1}, 0.7};
+  testing::light_of(scene) = {{0.3, 5, 0.2}, {0.2, -1, 0.1}, 0.7};
   scene.objects.push_back({"floor", make_plane(6.0), Vec3(0.8), false});
   constexpr std::uint64_t kSeed = 99;
-  const SurfaceBuffer surface = scattered_receivers(kSeed, scene.light, 4'096);
+  const SurfaceBuffer surface = scattered_receivers(kSeed, testing::light_of(scene), 4'096);
   const Values v = draw(scene, surface, 64).visibility;
   for (std::size_t i = 0; i < v.size(); ++i)
-    ASSERT_NEAR(v[i], fraction_above_horizon(scene.light, surface.position[i], surface.normal[i]), 1e-5)
+    ASSERT_NEAR(
+        v[i], fraction_above_horizon(testing::light_of(scene), surface.position[i], surface.normal[i]), 1e-5)
         << "seed " << kSeed << ", receiver " << i;
 }
 
 TEST(DBuffer, OfAnEmptyMeshListAndNoObjects) {
   Scene scene;
-  scene.light = {{0, 5, 0}, {0, -1, 0}, 0.5};
+  testing::light_of(scene) = {{0, 5, 0}, {0, -1, 0}, 0.5};
   const SurfaceBuffer surface = testing::receivers(std::vector<Vec3>(64, Vec3(0.0)), Vec3(0, 1, 0), 64);
   for (const float v : draw(scene, surface, 64).visibility) ASSERT_NEAR(v, 1.0f, 1e-6f);
   scene.objects.push_back({"nothing", TriangleMesh(), Vec3(0.8), true});
@@ -208,13 +210,15 @@ TEST(DBuffer, OfAnEmptyMeshListAndNoObjects) {
 
 TEST(DBuffer, CasterBehindTheLightCastsNothing) {
   Scene scene;
-  scene.light = {{0, 5, 0}, {0, -1, 0}, 0.5};
+  testing::light_of(scene) = {{0, 5, 0}, {0, -1, 0}, 0.5};
   scene.objects.push_back({"floor", make_plane(6.0), Vec3(0.8), false});
   scene.objects.push_back({"box", make_box({0, 7, 0}, Vec3(1.0)), Vec3(0.8), true});
-  const SurfaceBuffer surface = scattered_receivers(5, scene.light, 4'096);
+  const SurfaceBuffer surface = scattered_receivers(5, testing::light_of(scene), 4'096);
   const Values v = draw(scene, surface, 128).visibility;
   for (std::size_t i = 0; i < v.size(); ++i)
-    ASSERT_NEAR(v[i], fraction_above_horizon(scene.light, surface.position[i], surface.normal[i]), 1e-5) << i;
+    ASSERT_NEAR(
+        v[i], fraction_above_horizon(testing::light_of(scene), surface.position[i], surface.normal[i]), 1e-5)
+        << i;
 }
 
 TEST(DBuffer, SurvivesLightsInsideOrTouchingCasters) {
@@ -222,17 +226,17 @@ TEST(DBuffer, SurvivesLightsInsideOrTouchingCasters) {
                           {0, 1.000001, 0}, {0, 2, 0}, {0.5, 1 + 1e-9, 0}, {1.5, 0, 0}, {0, -1, 0}};
   for (const Vec3& center : centers) {
     Scene scene;
-    scene.light = {center, {0, -1, 0}, 5.0};
+    testing::light_of(scene) = {center, {0, -1, 0}, 5.0};
     scene.objects.push_back({"floor", make_plane(6.0), Vec3(0.8), false});
     scene.objects.push_back({"box", make_box(Vec3(0.0), Vec3(1.0)), Vec3(0.8), true});
     const RayScene rays(scene, 0);
     DBuffer buffer(context(), scene, rays);
     for (const Vec3& normal : {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1, 1, 1)}) {
-      scene.light.normal = normal;
-      buffer.set_surface(scattered_receivers(6, scene.light, 1'024));
+      testing::light_of(scene).normal = normal;
+      buffer.set_surface(scattered_receivers(6, testing::light_of(scene), 1'024).receivers());
       for (const double radius : {1e-6, 0.3, 5.0}) {
-        scene.light.radius = radius;
-        ASSERT_TRUE(all_in_range(buffer.render(scene.light, {.size = 64}).visibility))
+        testing::light_of(scene).radius = radius;
+        ASSERT_TRUE(all_in_range(buffer.render(testing::light_of(scene), {.size = 64}).visibility))
             << "light at " << center.x << " " << center.y << " " << center.z << ", radius " << radius;
       }
     }
@@ -242,7 +246,7 @@ TEST(DBuffer, SurvivesLightsInsideOrTouchingCasters) {
 // A box through the light's plane, beside the disk: its shadow lies where the rays say.
 TEST(DBuffer, CasterAcrossTheLightsPlane) {
   Scene scene;
-  scene.light = {{0, 5, 0}, {0, -1, 0}, 0.5};
+  testing::light_of(scene) = {{0, 5, 0}, {0, -1, 0}, 0.5};
   scene.camera = {{0, 9, 12}, {0, 0, 0}, {0, 1, 0}, 50};
   scene.objects.push_back({"floor", make_plane(8.0), Vec3(0.8), false});
   scene.objects.push_back({"box", make_box({2, 4.5, 0}, {0.4, 1.5, 0.6}), Vec3(0.8), true});
@@ -310,7 +314,7 @@ TEST(DBuffer, APostBelowTheLampDoesNotDarkenTheFloor) {
     for (int i = 0; i < 160; ++i) points.push_back({0.05 * i - 4.013, 0.05 * j - 3.017, 4.0});
   const SurfaceBuffer surface = testing::receivers(points, Vec3(0, 0, -1), 160);
   const RayScene rays(scene, 0);
-  const Values truth = silhouette_visibility(scene, rays, surface).visibility;
+  const Values truth = testing::see_silhouettes(scene, rays, surface).visibility;
   const Values v = draw(scene, surface).visibility;
   double squares = 0.0;
   for (std::size_t i = 0; i < v.size(); ++i) squares += (v[i] - truth[i]) * (v[i] - truth[i]);
@@ -351,7 +355,7 @@ TEST(DBuffer, OneEdgeIsTheChordFormula) {
 /// the farthest receiver, with four texels to spare.
 double texel_size(const Scene& scene, const LightFrame& axes, int size) {
   const auto local = [&](const Vec3& p) {
-    const Vec3 d = p - scene.light.center;
+    const Vec3 d = p - testing::light_of(scene).center;
     return Vec3(glm::dot(d, axes.u), glm::dot(d, axes.v), glm::dot(d, axes.w));
   };
   double farthest = 0.0;
@@ -362,7 +366,7 @@ double texel_size(const Scene& scene, const LightFrame& axes, int size) {
     if (!object.casts) continue;
     for (const Vec3& world : object.mesh.positions()) {
       const Vec3 p = local(world);
-      const double reach = scene.light.radius * (1.0 / p.z - 1.0 / farthest);
+      const double reach = testing::light_of(scene).radius * (1.0 / p.z - 1.0 / farthest);
       low = glm::min(low, glm::dvec2(p.x, p.y) / p.z - reach);
       high = glm::max(high, glm::dvec2(p.x, p.y) / p.z + reach);
     }
@@ -385,11 +389,11 @@ struct OneEdge {
 class OneEdgeOracle {
  public:
   OneEdgeOracle(const Scene& scene, int size)
-      : scene_(scene), axes_(light_frame(scene.light)), texel_(texel_size(scene, axes_, size)) {
+      : scene_(scene), axes_(light_frame(testing::light_of(scene))), texel_(texel_size(scene, axes_, size)) {
     for (const SceneObject& object : scene.objects) {
       if (!object.casts) continue;
       const TriangleMesh& mesh = object.mesh;
-      for (const EdgeId id : find_silhouettes(mesh, classify_faces(mesh, scene.light)).band) {
+      for (const EdgeId id : find_silhouettes(mesh, classify_faces(mesh, testing::light_of(scene))).band) {
         const Edge& e = mesh.edges()[index(id)];
         const Vec3 left = local(mesh.position(e.left_apex));
         edges_.push_back({local(mesh.position(e.from)), local(mesh.position(e.to)), left,
@@ -401,7 +405,7 @@ class OneEdgeOracle {
   OneEdge at(const Vec3& world, const Vec3& normal) const {
     const Vec3 x = local(world);
     const Vec3 n(glm::dot(normal, axes_.u), glm::dot(normal, axes_.v), glm::dot(normal, axes_.w));
-    const double r = scene_.light.radius;
+    const double r = testing::light_of(scene_).radius;
     if (x.z <= 0.0 || chord_of_plane(n, x, r).delta < 1.0) return {};
     const BandEdge* found = nullptr;
     for (const BandEdge& e : edges_) {
@@ -416,7 +420,7 @@ class OneEdgeOracle {
 
  private:
   Vec3 local(const Vec3& p) const {
-    const Vec3 d = p - scene_.light.center;
+    const Vec3 d = p - testing::light_of(scene_).center;
     return {glm::dot(d, axes_.u), glm::dot(d, axes_.v), glm::dot(d, axes_.w)};
   }
   /// Where the line from x through p meets the light's plane.
@@ -428,13 +432,15 @@ class OneEdgeOracle {
     return glm::length(p + std::clamp(-glm::dot(p, d) / glm::dot(d, d), 0.0, 1.0) * d);
   }
   OneEdge judge(const BandEdge& e, const Vec3& world, const Vec3& x) const {
-    const double r = scene_.light.radius;
+    const double r = testing::light_of(scene_).radius;
     const Vec3 plane = edge_plane(x, e.a, e.b);
     const Chord chord = chord_of_plane(plane, x, r);
     // Either side is open or hidden as a whole; one ray into each says which.
     const auto open = [&](double distance) {
       const glm::dvec2 p = r * distance * chord.normal;
-      return !testing::is_blocked(scene_, world, scene_.light.center + p.x * axes_.u + p.y * axes_.v).hidden;
+      return !testing::is_blocked(scene_, world,
+                                  testing::light_of(scene_).center + p.x * axes_.u + p.y * axes_.v)
+                  .hidden;
     };
     const double positive = open(0.5 * (1.0 - chord.delta)) ? 1.0 : 0.0;  // half-way between chord and rim
     const double negative = open(0.5 * (-1.0 - chord.delta)) ? 1.0 : 0.0;
@@ -487,12 +493,12 @@ TEST(DBuffer, ReceiversThatOneEdgeDividesAreExact) {
 
 TEST(DBuffer, OfRadiusZeroIsTheHardShadow) {
   Scene scene = testing::data_scene("boxes-medium");
-  scene.light.radius = 0.0;
+  testing::light_of(scene).radius = 0.0;
   RenderOptions options;
   options.width = 160, options.height = 120;
-  options.method = Method::kDBuffer;
+  options.method = "dbuffer";
   const Values soft = render(scene, options).image.at("visibility");
-  options.method = Method::kHard;
+  options.method = "hard";
   EXPECT_EQ(soft, render(scene, options).image.at("visibility"));
   EXPECT_GT(std::count(soft.begin(), soft.end(), 0.0f), 500);
 }
@@ -501,23 +507,23 @@ TEST(DBuffer, FramesDoNotDependOnTheFrameBefore) {
   const Scene scene = testing::data_scene("torus-medium");
   const View view(scene, 160, 120);
   DBuffer buffer(context(), scene, view.rays);
-  buffer.set_surface(view.surface);
-  const Values first = buffer.render(scene.light, {.size = 256}).visibility;
-  DiskLight other = scene.light;
+  buffer.set_surface(view.surface.receivers());
+  const Values first = buffer.render(testing::light_of(scene), {.size = 256}).visibility;
+  DiskLight other = testing::light_of(scene);
   other.center.x += 3.0;
   other.radius *= 3.0;
   EXPECT_NE(buffer.render(other, {.size = 128}).visibility, first);
-  EXPECT_EQ(buffer.render(scene.light, {.size = 256}).visibility, first);
+  EXPECT_EQ(buffer.render(testing::light_of(scene), {.size = 256}).visibility, first);
 }
 
 TEST(DBuffer, SizesOutsideTheirRangeAreRefused) {
   const Scene scene = testing::data_scene("cube-medium");
   const RayScene rays(scene, 0);
   DBuffer buffer(context(), scene, rays);
-  buffer.set_surface(testing::receivers({{0, 0, 0}}, Vec3(0, 1, 0), 1));
+  buffer.set_surface(testing::receivers({{0, 0, 0}}, Vec3(0, 1, 0), 1).receivers());
   for (const int size : {-1, 1, 15, 8193})
-    EXPECT_THROW(buffer.render(scene.light, {.size = size}), UsageError) << size;
-  EXPECT_NO_THROW(buffer.render(scene.light, {.size = 16}));
+    EXPECT_THROW(buffer.render(testing::light_of(scene), {.size = size}), UsageError) << size;
+  EXPECT_NO_THROW(buffer.render(testing::light_of(scene), {.size = 16}));
 }
 
 TEST(DBuffer, ZeroIsASizeByTheImage) {

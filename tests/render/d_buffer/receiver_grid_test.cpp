@@ -12,14 +12,14 @@ using testing::Random;
 using testing::Values;
 using testing::View;
 
-struct Receivers {
+struct PlacedReceivers {
   std::vector<glm::vec4> positions, normals;
   std::vector<float> seen;
 };
 
 /// In the light's frame, some of them outside of the window, some turned away from the light's center.
-Receivers random_receivers(Random& random, int count) {
-  Receivers out;
+PlacedReceivers random_receivers(Random& random, int count) {
+  PlacedReceivers out;
   for (int i = 0; i < count; ++i) {
     const double z = random.spread(0.5, 8.0);
     const glm::vec3 p(glm::dvec3(1.2 * z * random.point().x, 1.2 * z * random.point().y, z));
@@ -34,7 +34,7 @@ TEST(ReceiverGrid, IsNeverAboveAReceiverInTheBounds) {
   Random random(11);
   const detail::Target target{glm::dmat3(1.0), {-1.0, 1.0, -1.0, 1.0}};
   for (int round = 0; round < 40; ++round) {
-    const Receivers r = random_receivers(random, 1 + round * 5);
+    const PlacedReceivers r = random_receivers(random, 1 + round * 5);
     const detail::ImageReceivers image{static_cast<int>(r.positions.size()), 1, r.positions, glm::mat3(1.0f),
                                        glm::vec3(0.0f)};
     const double radius = random.spread(0.01, 1.0);
@@ -81,15 +81,15 @@ TEST(ReceiverGrid, PixelsDoNotDependOnOtherPixels) {
     const View view(scene, 160, 120);
     const auto context = gl::make_context(gl::Backend::kOsMesa);
     DBuffer buffer(*context, scene, view.rays);
-    buffer.set_surface(view.surface);
-    const DBufferOptions options{.size = 512, .check = EntryCheck::kNone};  // which looks at neighbours
-    const Values all = buffer.render(scene.light, options).visibility;
+    buffer.set_surface(view.surface.receivers());
+    const DBufferOptions options{.size = 512, .check = EntryCheck::kNone};  // which looks at neighbors
+    const Values all = buffer.render(testing::light_of(scene), options).visibility;
     SurfaceBuffer few = view.surface;
     Random random(3);
     for (std::int32_t& object : few.object)
       if (random.uniform(0, 1) < 0.9) object = -1;
-    buffer.set_surface(few);
-    const Values some = buffer.render(scene.light, options).visibility;
+    buffer.set_surface(few.receivers());
+    const Values some = buffer.render(testing::light_of(scene), options).visibility;
     int seen = 0, differ = 0;
     for (std::size_t i = 0; i < few.size(); ++i) {
       if (!few.hit(i) || (all[i] == 1.0f && some[i] == 1.0f)) continue;

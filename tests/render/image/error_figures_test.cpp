@@ -114,7 +114,7 @@ TEST(ErrorFigures, IntervalNarrowsWithPixels) {
 
 TEST(ErrorFigures, Deterministic) {
   const Sample s = noisy_sample(1'000, 0.01, 0.03, 0.01, 9);
-  EXPECT_EQ(to_json(figures_of(s)), to_json(figures_of(s)));
+  EXPECT_EQ(figures_of(s), figures_of(s));
 }
 
 TEST(ErrorFigures, TruePenumbraIsStrictlyBetween) {

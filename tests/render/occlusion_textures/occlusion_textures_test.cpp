@@ -6,7 +6,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
-#include "render/shading/shading.h"
+#include "render/light/light_integrals.h"
 #include "tests/render/error_support.h"
 #include "tests/render/render_support.h"
 
@@ -27,13 +27,14 @@ Values draw(const Scene& scene, const SurfaceBuffer& surface, const OcclusionOpt
             int threads = 0) {
   const RayScene rays(scene, threads);
   OcclusionTextures textures(context(), scene, rays);
-  return textures.render(area_light(scene), surface, options).visibility;
+  return textures.render(area_light(scene.lights.front().shape), surface, options).visibility;
 }
 
 /// A rectangular light in z = 0 that shines towards +z, and casters.
 Scene scene_under_rectangle(const glm::dvec2& half, const Vec3& tangent, std::vector<TriangleMesh> casters) {
   Scene scene = testing::scene_in_light_frame(glm::length(half), std::move(casters));
-  scene.rectangle = RectangleShape{tangent, half};
+  scene.lights.front().shape =
+      RectangleLight{.center = {}, .normal = {0, 0, 1}, .tangent = tangent, .half_extents = half};
   return scene;
 }
 
@@ -175,7 +176,9 @@ TEST(OcclusionTextures, HardCasesStayInRange) {
             if (offset > 0.0) options.cop_offset = offset;
             options.range = renders % 2 ? SliceRange::kScene : SliceRange::kCasters;
             options.coverage = renders % 3 ? SliceCoverage::kBinary : SliceCoverage::kArea;
-            ASSERT_TRUE(all_in_range(textures.render(area_light(hard.scene), surface, options).visibility))
+            ASSERT_TRUE(all_in_range(
+                textures.render(area_light(hard.scene.lights.front().shape), surface.receivers(), options)
+                    .visibility))
                 << hard.name << ", " << filter.name << ", " << combine.name << ", offset " << offset
                 << ", seed " << kSeed;
             ++renders;
@@ -206,8 +209,8 @@ TEST(OcclusionTextures, BehindTheLightIsDarkAndWithoutCastersIsTheHorizon) {
   const Values v = draw(scene, surface);
   int behind = 0;
   for (std::size_t i = 0; i < v.size(); ++i) {
-    EXPECT_EQ(v[i], static_cast<float>(
-                        fraction_above_horizon(scene.light, surface.position[i], surface.normal[i])));
+    EXPECT_EQ(v[i], static_cast<float>(fraction_above_horizon(testing::light_of(scene), surface.position[i],
+                                                              surface.normal[i])));
     behind += surface.position[i].z <= 0.0 && v[i] == 0.0f;
   }
   EXPECT_GT(behind, 100);
@@ -268,10 +271,13 @@ TEST(RectangleLight, IsRefusedByMethodsThatNeedADisk) {
   RenderOptions options;
   options.width = 16;
   options.height = 12;
-  EXPECT_THROW(render(scene, options), UsageError);
-  for (const Method method : {Method::kNone, Method::kHard, Method::kOcclusionTextures, Method::kReference}) {
+  for (const char* method : {"silhouette", "rays", "dbuffer"}) {
     options.method = method;
-    EXPECT_NO_THROW(render(scene, options)) << name_of(method);
+    EXPECT_THROW(render(scene, options), UsageError) << method;
+  }
+  for (const char* method : {"none", "hard", "occlusion-textures", "reference"}) {
+    options.method = method;
+    EXPECT_NO_THROW(render(scene, options)) << method;
   }
 }
 

@@ -4,7 +4,8 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/light/disk_samples.h"
-#include "render/shading/shading.h"
+#include "render/light/light_integrals.h"
+#include "render/rays/hard.h"
 #include "tests/render/error_support.h"
 #include "tests/render/render_support.h"
 
@@ -37,7 +38,7 @@ SurfaceBuffer line_of_receivers(double x0, double x1, double z, int count) {
 
 ReferenceResult trace(const Scene& scene, const SurfaceBuffer& surface, int samples, std::uint64_t seed = 1) {
   const RayScene rays(scene, 0);
-  return trace_reference(scene, rays, surface, testing::every_pixel(surface),
+  return trace_reference(rays, scene.lights.front().shape, surface.receivers(), testing::every_pixel(surface),
                          {.samples = samples, .seed = seed});
 }
 
@@ -130,12 +131,14 @@ TEST(Reference, DiskOverTheCenterIsTheLensOfTwoCircles) {
 TEST(Reference, RectangleIsSampledEvenly) {
   const double z = 5.0, depth = 10.0;
   Scene scene = testing::scene_in_light_frame(1.0, {half_plane(z)});
-  scene.rectangle = RectangleShape{{1, 0, 0}, {0.8, 0.3}};
+  RectangleLight light{.center = {}, .normal = {0, 0, 1}, .tangent = {1, 0, 0}, .half_extents = {0.8, 0.3}};
+  scene.lights.front().shape = light;
   const SurfaceBuffer surface = line_of_receivers(-1.0, 1.0, depth, 4'000);
   const double along = rms_against(surface, trace(scene, surface, 1024).visibility, [&](const Vec3& p) {
     return std::clamp(0.5 + 0.5 * delta_of_line(p, 0.0, z, 0.8), 0.0, 1.0);
   });
-  scene.rectangle->tangent = {0, 1, 0};
+  light.tangent = {0, 1, 0};
+  scene.lights.front().shape = light;
   const double across = rms_against(surface, trace(scene, surface, 1024).visibility, [&](const Vec3& p) {
     return std::clamp(0.5 + 0.5 * delta_of_line(p, 0.0, z, 0.3), 0.0, 1.0);
   });
@@ -168,14 +171,15 @@ TEST(Reference, PenumbraHasTheWidthOfTwoCones) {
 
 TEST(Reference, OfRadiusZeroIsTheHardShadow) {
   Scene scene = testing::data_scene("boxes-medium");
-  scene.light.radius = 0.0;
+  testing::light_of(scene).radius = 0.0;
   const testing::View view(scene, 160, 120);
   const Pixels pixels = testing::every_pixel(view.surface);
-  const Values hard = trace_hard(scene, view.rays, view.surface, pixels).visibility;
+  const Values hard =
+      trace_hard(view.rays, testing::light_of(scene), view.surface.receivers(), pixels).visibility;
   EXPECT_EQ(view.trace(pixels, 16, 5), hard);
   EXPECT_GT(std::count(hard.begin(), hard.end(), 0.0f), 500);
   // And it is what a tiny disk tends to, but for the few pixels on a boundary.
-  scene.light.radius = 1e-6;
+  testing::light_of(scene).radius = 1e-6;
   const Values tiny = view.trace(pixels, 16, 5);
   std::size_t differing = 0;
   for (std::size_t i = 0; i < hard.size(); ++i) differing += hard[i] != tiny[i];
@@ -188,11 +192,13 @@ TEST(Reference, NothingIsLitOnOrBehindTheLightsPlane) {
       testing::receivers({{3, 0, 0}, {3, 0, -1e-9}, {0, 0, -4}, {9, 9, -2}, {3, 0, 1e-3}}, Vec3(-1, 0, 0), 5);
   const RayScene rays(scene, 1);
   const Pixels pixels = testing::every_pixel(surface);
-  const ReferenceResult v = trace_reference(scene, rays, surface, pixels, {.samples = 64}, true);
+  const ReferenceResult v =
+      trace_reference(rays, testing::light_of(scene), surface.receivers(), pixels, {.samples = 64}, true);
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(v.visibility[i], 0.0f) << i;
-    EXPECT_EQ(v.unblocked[i], 0.0f) << i;
-    EXPECT_EQ(trace_hard(scene, rays, surface, pixels).visibility[i], 0.0f) << i;
+    EXPECT_EQ(v.unoccluded[i], 0.0f) << i;
+    EXPECT_EQ(trace_hard(rays, testing::light_of(scene), surface.receivers(), pixels).visibility[i], 0.0f)
+        << i;
   }
   EXPECT_EQ(v.visibility[4], 1.0f);
 }
@@ -211,20 +217,20 @@ TEST(Reference, WithoutCastersIsTheHorizonsFraction) {
   }
   const SurfaceBuffer surface = testing::receivers(points, normals, 4'000);
   const RayScene rays(scene, 0);
-  const ReferenceResult v =
-      trace_reference(scene, rays, surface, testing::every_pixel(surface), {.samples = 1024}, true);
+  const ReferenceResult v = trace_reference(rays, testing::light_of(scene), surface.receivers(),
+                                            testing::every_pixel(surface), {.samples = 1024}, true);
   double sum = 0.0;
   int cut = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double expected = fraction_above_horizon(scene.light, points[i], normals[i]);
+    const double expected = fraction_above_horizon(testing::light_of(scene), points[i], normals[i]);
     if (expected == 0.0 || expected == 1.0) {
       ASSERT_EQ(v.visibility[i], static_cast<float>(expected)) << "seed " << kSeed << ", receiver " << i;
     } else {
       sum += (v.visibility[i] - expected) * (v.visibility[i] - expected);
       ++cut;
     }
-    ASSERT_EQ(v.unblocked[i], 1.0f) << "no caster, and O knows no horizon; seed " << kSeed << ", receiver "
-                                    << i;
+    ASSERT_EQ(v.unoccluded[i], 1.0f) << "no caster, and O knows no horizon; seed " << kSeed << ", receiver "
+                                     << i;
   }
   EXPECT_GT(cut, 300);
   EXPECT_LE(std::sqrt(sum / cut), kNoiseOfOneChord);
@@ -264,7 +270,8 @@ TEST(Reference, SinglesAreThePacketsRays) {
   const testing::View view(scene, 80, 60);
   const Pixels pixels = testing::every_pixel(view.surface);
   const auto with = [&](bool packets) {
-    return trace_reference(scene, view.rays, view.surface, pixels, {.samples = 64, .packets = packets});
+    return trace_reference(view.rays, testing::light_of(scene), view.surface.receivers(), pixels,
+                           {.samples = 64, .packets = packets});
   };
   const ReferenceResult packets = with(true), singles = with(false);
   EXPECT_EQ(packets.rays, singles.rays);
@@ -305,7 +312,7 @@ struct DoubleCount {
 };
 DoubleCount count_in_double(const Scene& scene, const SurfaceBuffer& surface, std::uint32_t pixel,
                             int samples, std::uint64_t seed) {
-  const LightFrame f = light_frame(scene.light);
+  const LightFrame f = light_frame(testing::light_of(scene));
   const detail::Strata strata(samples);
   const Vec3 x = surface.position[pixel] + kRayOffset / ray_frame(scene).scale * surface.normal[pixel];
   DoubleCount out;
@@ -314,7 +321,8 @@ DoubleCount count_in_double(const Scene& scene, const SurfaceBuffer& surface, st
         detail::sample_key(seed, pixel), static_cast<std::uint32_t>(i),
         static_cast<float>(i % strata.columns), static_cast<float>(i / strata.columns),
         1.0f / static_cast<float>(strata.columns), 1.0f / static_cast<float>(strata.rows));
-    const Vec3 p = scene.light.center + scene.light.radius * (double{s.x} * f.u + double{s.y} * f.v);
+    const Vec3 p = testing::light_of(scene).center +
+                   testing::light_of(scene).radius * (double{s.x} * f.u + double{s.y} * f.v);
     if (glm::dot(surface.normal[pixel], p - x) <= 0.0) continue;
     const testing::Blocked b = testing::is_blocked(scene, x, p);
     out.visible += !b.hidden;
@@ -340,7 +348,7 @@ TEST(Reference, CountsWhatADoubleTestCounts) {
 
 TEST(Reference, NeverRisesWhenACasterIsAdded) {
   Scene scene;
-  scene.light = {{0.3, 8, 0.2}, {0, -1, 0}, 0.8};
+  testing::light_of(scene) = {{0.3, 8, 0.2}, {0, -1, 0}, 0.8};
   scene.camera = {{6, 7, 8}, {0, 1.5, 0}, {0, 1, 0}, 45};
   scene.objects.push_back({"floor", make_plane(6.0, 2), Vec3(0.8), false});
   Random random(31);

@@ -63,8 +63,8 @@ TEST(OccludingCasters, AFloorThatCastsChangesNothingOfTheDBuffer) {
     const auto render = [&](std::uint64_t& left_out) {
       const testing::View view(scene, 160, 120);
       DBuffer buffer(*context, scene, view.rays);
-      buffer.set_surface(view.surface);
-      DBufferFrame frame = buffer.render(scene.light, {});
+      buffer.set_surface(view.surface.receivers());
+      DBufferFrame frame = buffer.render(testing::light_of(scene), {});
       left_out = testing::count_in(frame.counts, "casters_that_cannot_occlude");
       return frame.visibility;
     };
@@ -85,7 +85,7 @@ TEST(OccludingCasters, AFloorThatCastsChangesNothingOfSilhouettes) {
     Scene scene = testing::data_scene(name);
     const auto render = [&] {
       const testing::View view(scene, 160, 120);
-      return silhouette_visibility(scene, view.rays, view.surface);
+      return view.see_silhouettes();
     };
     const SilhouetteResult without = render();
     scene.objects.front().casts = true;

@@ -11,7 +11,7 @@ namespace {
 /// A floor, a box and a triangle in front of it, seen from above.
 Scene known_scene() {
   Scene scene;
-  scene.light = {{0, 5, 0}, {0, -1, 0}, 0.5};
+  testing::light_of(scene) = {{0, 5, 0}, {0, -1, 0}, 0.5};
   scene.camera = {{1.3, 4, 6}, {0.1, 0.3, 0}, {0, 1, 0}, 40};
   scene.objects.push_back({"floor", make_plane(3.0, 4), Vec3(0.8), false});
   scene.objects.push_back({"box", make_box({0, 0.6, 0}, {0.5, 0.6, 0.4}), Vec3(0.8), true});
@@ -102,7 +102,7 @@ TEST(SurfaceBuffer, PointsLieOnThePlaneAndThePixelsRay) {
 
 TEST(SurfaceBuffer, BackFacesAreSeenWithTheirNormalTurned) {
   Scene scene;
-  scene.light = {{0, 0, 5}, {0, 0, -1}, 0.5};
+  testing::light_of(scene) = {{0, 0, 5}, {0, 0, -1}, 0.5};
   scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 40};
   scene.objects.push_back({"t", make_triangle({-5, -5, 0}, {0, 9, 0}, {5, -5, 0}), Vec3(0.8), true});
   const testing::View view(scene, 4, 4);
@@ -114,7 +114,7 @@ TEST(SurfaceBuffer, BackFacesAreSeenWithTheirNormalTurned) {
 
 TEST(SurfaceBuffer, OfAnEmptySceneIsBackground) {
   Scene scene;
-  scene.light = {{0, 0, 5}, {0, 0, -1}, 0.5};
+  testing::light_of(scene) = {{0, 0, 5}, {0, 0, -1}, 0.5};
   const testing::View view(scene, 5, 3);
   EXPECT_EQ(view.surface.size(), 15u);
   for (std::size_t i = 0; i < 15; ++i) EXPECT_FALSE(view.surface.hit(i));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/light/light_integrals.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {
@@ -140,25 +141,31 @@ TEST(DiskIrradianceFactorProperty, OfTwoSidesDifferByThePlainLambertIntegral) {
   }
 }
 
+Image shade_under_one_light(const Scene& scene, const SurfaceBuffer& surface,
+                            const testing::Values& visibility) {
+  return shade(scene, surface, std::vector<LightVisibility>{{visibility, {}}}, detail::make_threads(2));
+}
+
 TEST(Shade, IsTheProductOfItsFactors) {
   Scene scene = testing::scene_in_light_frame(0.5, {testing::rectangle(-1, 1, -1, 1, 4)});
   scene.objects[0].albedo = {0.2, 0.4, 0.8};
-  scene.radiance = {3, 5, 7};
+  scene.lights.front().radiance = {3, 5, 7};
   const Vec3 x{0.5, 0.25, 4}, up{0, 0, -1}, down{0, 0, 1}, side{1, 0, 0};
   SurfaceBuffer surface = testing::receivers({x, x, x, {0, 0, 4}, {0, 0, -1}, x},
                                              std::vector<Vec3>{up, up, down, side, up, up}, 3);
   surface.object[5] = -1;
-  const Image image = shade(scene, surface, std::vector<float>{1.0f, 0.25f, 0.0f, 0.5f, 0.0f, 1.0f}, 2);
-  const double factor = disk_irradiance_factor(scene.light, x, up);
+  const Image image = shade_under_one_light(scene, surface, {1.0f, 0.25f, 0.0f, 0.5f, 0.0f, 1.0f});
+  const double factor = disk_irradiance_factor(testing::light_of(scene), x, up);
   const char* names[] = {"R", "G", "B"};
   for (int k = 0; k < 3; ++k) {
     const auto& channel = image.at(names[k]);
-    const double full = scene.objects[0].albedo[k] / kPi * scene.radiance[k];
+    const double full = scene.objects[0].albedo[k] / kPi * scene.lights.front().radiance[k];
     EXPECT_NEAR(channel[0], full * factor, 1e-6 * full);
     EXPECT_NEAR(channel[1], full * factor * 0.25, 1e-6 * full);
     EXPECT_EQ(channel[2], 0.0f) << "V_h is 0";
     // The horizon halves the disk, and what is above it is wholly visible.
-    EXPECT_NEAR(channel[3], full * disk_irradiance_factor(scene.light, {0, 0, 4}, side), 1e-6 * full);
+    EXPECT_NEAR(channel[3], full * disk_irradiance_factor(testing::light_of(scene), {0, 0, 4}, side),
+                1e-6 * full);
     EXPECT_EQ(channel[4], 0.0f) << "behind the light";
     EXPECT_EQ(channel[5], 0.0f) << "nothing seen";
   }
@@ -172,10 +179,10 @@ TEST(Shade, IsTheProductOfItsFactors) {
 
 TEST(Shade, OfRadiusZeroIsAPointLight) {
   Scene scene = testing::scene_in_light_frame(0.0, {testing::rectangle(-1, 1, -1, 1, 4)});
-  scene.radiance = Vec3(3.0);
+  scene.lights.front().radiance = Vec3(3.0);
   const Vec3 x{1, 0, 4};
   const SurfaceBuffer surface = testing::receivers({x, x}, Vec3(0, 0, -1), 2);
-  const Image image = shade(scene, surface, std::vector<float>{1.0f, 0.0f});
+  const Image image = shade_under_one_light(scene, surface, {1.0f, 0.0f});
   const double d2 = 17.0;
   EXPECT_NEAR(image.at("G")[0], 0.8 / kPi * 3.0 * 4.0 * 4.0 / (d2 * d2), 1e-7);
   EXPECT_EQ(image.at("G")[1], 0.0f);

@@ -18,7 +18,7 @@ namespace penumbra::testing {
 
 class FaceOverlap {
  public:
-  explicit FaceOverlap(const Scene& scene) : light_(scene.light) {
+  explicit FaceOverlap(const Scene& scene) : light_(testing::light_of(scene)) {
     for (const SceneObject& object : scene.objects) {
       if (!object.casts) continue;
       const auto p = object.mesh.positions();

@@ -171,7 +171,8 @@ TEST(FacePatches, NoClosedSurfaceIsWithinOne) {
 Scene scene_of(const TriangleMesh& mesh) {
   Scene scene;
   const Bounds box = bounds_of(mesh.positions());
-  scene.light = {box.center() + Vec3(0.3, 0.1, 3.0) * box.radius(), Vec3(0, 0, -1), 0.3 * box.radius()};
+  testing::light_of(scene) = {box.center() + Vec3(0.3, 0.1, 3.0) * box.radius(), Vec3(0, 0, -1),
+                              0.3 * box.radius()};
   scene.objects.push_back({"caster", mesh, Vec3(0.8), true});
   return scene;
 }
@@ -238,9 +239,9 @@ Difference compare(const Scene& scene, const SurfaceBuffer& surface, double tole
   const RayScene rays(scene, 0);
   SilhouetteOptions options;
   options.tolerance = 0.0;
-  const SilhouetteResult exact = silhouette_visibility(scene, rays, surface, options);
+  const SilhouetteResult exact = testing::see_silhouettes(scene, rays, surface, options);
   options.tolerance = tolerance;
-  const SilhouetteResult r = silhouette_visibility(scene, rays, surface, options);
+  const SilhouetteResult r = testing::see_silhouettes(scene, rays, surface, options);
   EXPECT_EQ(r.counts.receivers, exact.counts.receivers);
   EXPECT_EQ(r.counts.behind_light, exact.counts.behind_light);
   EXPECT_EQ(r.counts.fallback, exact.counts.fallback);
@@ -276,11 +277,11 @@ TEST(MergedFaces, MoveVisibilityLittle) {
   std::size_t merged = 0;
   for (const auto& [name, mesh] : meshes(7)) {
     Scene scene = scene_of(mesh);
-    const DiskLight light = scene.light;
+    const DiskLight light = testing::light_of(scene);
     const double size = scene.bounds().radius();
     for (int k = 0; k < 6; ++k) {
-      scene.light = {light.center + 0.5 * size * random.point(), light.normal + 0.2 * random.point(),
-                     size * random.spread(0.3, 1.5)};
+      testing::light_of(scene) = {light.center + 0.5 * size * random.point(),
+                                  light.normal + 0.2 * random.point(), size * random.spread(0.3, 1.5)};
       const double tolerance = k % 2 == 0 ? 1e-2 : 4e-3;
       const Difference d = compare(scene, receivers_about(random, scene), tolerance);
       const double rmse = std::sqrt(d.square / static_cast<double>(std::max<std::size_t>(1, d.penumbra)));
@@ -301,7 +302,7 @@ TEST(MergedFaces, OfFlatSidesLeaveTheCoarseMeshsEdges) {
   Scene scene = testing::data_scene("torus-medium");
   const auto render = [&] {
     const RayScene rays(scene, 0);
-    return silhouette_visibility(scene, rays, make_surface_buffer(scene, rays, 160, 120));
+    return testing::see_silhouettes(scene, rays, make_surface_buffer(scene, rays, 160, 120));
   };
   const SilhouetteResult coarse = render();
   scene.objects.back().mesh = cut(scene.objects.back().mesh, 3);
@@ -316,7 +317,7 @@ TEST(MergedFaces, OfFlatSidesLeaveTheCoarseMeshsEdges) {
 
 TEST(MergedFaces, AreNotMistakenWhereCastersCrossTheLightsPlane) {
   Scene scene = scene_of(make_icosphere({0, 0, 0}, 1.0, 5));
-  scene.light = {{0.9, 0, 0}, {0, 0, 1}, 0.5};
+  testing::light_of(scene) = {{0.9, 0, 0}, {0, 0, 1}, 0.5};
   Random random(74);
   const Difference d = compare(scene, receivers_about(random, scene), 2e-3);
   EXPECT_EQ(d.merged, 0u);
@@ -327,7 +328,7 @@ TEST(MergedFaces, AreNotMistakenWhereCastersCrossTheLightsPlane) {
 struct Stage {
   explicit Stage(const Scene& scene)
       : frame(ray_frame(scene)),
-        light(scene.light),
+        light(testing::light_of(scene)),
         edges(scene, frame.origin, frame.scale),
         lit(scene, light, edges),
         band(make_band(lit, edges)) {}

@@ -58,7 +58,7 @@ Share expect_all_found(const Scene& scene, const SceneEdges& edges, const DiskLi
 Scene random_scene(Random& random, const Vec3& middle, double size) {
   Scene scene;
   const auto somewhere = [&] { return middle + size * random.point(); };
-  scene.light = {somewhere(), random.direction(), size * random.spread(0.001, 1.0)};
+  testing::light_of(scene) = {somewhere(), random.direction(), size * random.spread(0.001, 1.0)};
   for (int k = 0; k < 6; ++k) {
     const Vec3 p = somewhere();
     std::vector<Vec3> points;
@@ -86,7 +86,8 @@ TEST(SceneEdges, FindTheBandOfAnyLight) {
     const Scene scene = random_scene(random, middle, round % 2 == 0 ? 1.0 : 1e-3);
     const SceneEdges edges = edges_of(scene);
     for (int i = 0; i < 20; ++i) {
-      const Share s = expect_all_found(scene, edges, i == 0 ? scene.light : random_light(random, scene));
+      const Share s =
+          expect_all_found(scene, edges, i == 0 ? testing::light_of(scene) : random_light(random, scene));
       all.exact += s.exact, all.found += s.found;
     }
   }
@@ -97,7 +98,7 @@ TEST(SceneEdges, FindTheBandOfAnyLight) {
 TEST(SceneEdges, FindFewMoreThanTheBand) {
   for (const char* name : {"armadillo-medium", "boxes-small", "foliage-large", "sphere-medium"}) {
     const Scene scene = testing::data_scene(name);
-    const Share s = expect_all_found(scene, edges_of(scene), scene.light);
+    const Share s = expect_all_found(scene, edges_of(scene), testing::light_of(scene));
     EXPECT_LE(static_cast<double>(s.found), 1.002 * static_cast<double>(s.exact)) << name;
   }
 }
@@ -108,11 +109,11 @@ TEST(SceneEdges, KeepWhatTouches) {
       2.0, {make_box({2.5, 0, 1.5}, {0.5, 1, 0.5}), testing::rectangle(-1, 1, -1, 1, 0.0),
             testing::mesh_of({{0, 0, 3}, {1, 0, 3}, {2, 0, 3}, {0, 1, 4}}, {{0, 1, 2}, {0, 2, 3}})});
   const SceneEdges edges = edges_of(scene);
-  expect_all_found(scene, edges, scene.light);
-  scene.light.radius = std::nextafter(2.0, 3.0);
-  expect_all_found(scene, edges, scene.light);
-  scene.light.radius = std::nextafter(2.0, 1.0);
-  expect_all_found(scene, edges, scene.light);
+  expect_all_found(scene, edges, testing::light_of(scene));
+  testing::light_of(scene).radius = std::nextafter(2.0, 3.0);
+  expect_all_found(scene, edges, testing::light_of(scene));
+  testing::light_of(scene).radius = std::nextafter(2.0, 1.0);
+  expect_all_found(scene, edges, testing::light_of(scene));
 }
 
 TEST(SceneEdges, LeaveOutIdleObjectsAndThoseThatDoNotCast) {
@@ -122,11 +123,11 @@ TEST(SceneEdges, LeaveOutIdleObjectsAndThoseThatDoNotCast) {
   std::vector<char> cannot_occlude(scene.objects.size(), 0);
   cannot_occlude[6] = 1;
   std::size_t others = 0;
-  for (const SceneEdge& e : edges.band_of(scene.light, {})) {
+  for (const SceneEdge& e : edges.band_of(testing::light_of(scene), {})) {
     EXPECT_TRUE(scene.objects[e.object].casts);
     others += e.object != 6 ? 1 : 0;
   }
-  const std::vector<SceneEdge> rest = edges.band_of(scene.light, cannot_occlude);
+  const std::vector<SceneEdge> rest = edges.band_of(testing::light_of(scene), cannot_occlude);
   EXPECT_TRUE(std::ranges::all_of(rest, [](const SceneEdge& e) { return e.object != 6; }));
   EXPECT_EQ(rest.size(), others);
 }
@@ -135,7 +136,7 @@ TEST(SceneEdges, AreTheSameForAnyNumberOfThreads) {
   const Scene scene = testing::data_scene("bunny-medium");
   const auto found = [&](int threads) {
     std::vector<SceneEdge> out;
-    tbb::task_arena(threads).execute([&] { out = edges_of(scene).band_of(scene.light, {}); });
+    tbb::task_arena(threads).execute([&] { out = edges_of(scene).band_of(testing::light_of(scene), {}); });
     return out;
   };
   const std::vector<SceneEdge> one = found(1), two = found(2);
@@ -147,7 +148,7 @@ TEST(SceneEdges, AreTheSameForAnyNumberOfThreads) {
 
 TEST(SceneEdges, OfNothingAreNone) {
   Scene scene = testing::scene_in_light_frame(1.0, {});
-  EXPECT_TRUE(edges_of(scene).band_of(scene.light, {}).empty());
+  EXPECT_TRUE(edges_of(scene).band_of(testing::light_of(scene), {}).empty());
   EXPECT_EQ(edges_of(scene).size(), 0u);
 }
 

@@ -61,9 +61,9 @@ Scene random_scene(Random& random, int kind) {
   std::vector<Vec3> points;
   for (const Vec3& p : mesh.positions()) points.push_back(rotated(p, axis, angle) + shift);
   Scene scene;
-  scene.light = {{random.uniform(-1, 1), random.uniform(2.5, 4), random.uniform(-1, 1)},
-                 Vec3(0, -1, 0) + random.point(0.3),
-                 random.spread(0.05, 1.5)};
+  testing::light_of(scene) = {{random.uniform(-1, 1), random.uniform(2.5, 4), random.uniform(-1, 1)},
+                              Vec3(0, -1, 0) + random.point(0.3),
+                              random.spread(0.05, 1.5)};
   scene.camera = {{random.uniform(-4, 4), random.uniform(2, 5), 5}, {0, 0.6, 0}, {0, 1, 0}, 40};
   scene.objects.push_back({"floor", make_plane(3.0, 2), Vec3(0.8), kind % 2 == 0});
   scene.objects.push_back({"caster",
@@ -74,12 +74,13 @@ Scene random_scene(Random& random, int kind) {
 
 /// Whether some point of the disk that rays found otherwise is so in double as well.
 bool confirmed(const Scene& scene, const Vec3& x, bool certified_lit) {
-  const LightFrame f = light_frame(scene.light);
+  const LightFrame f = light_frame(testing::light_of(scene));
   Random random(1);
   for (int i = 0; i < 400; ++i) {
-    const double radius = scene.light.radius * std::sqrt(random.uniform(0.0, 1.0));
+    const double radius = testing::light_of(scene).radius * std::sqrt(random.uniform(0.0, 1.0));
     const glm::dvec2 p = radius * random.unit2();
-    const testing::Blocked b = testing::is_blocked(scene, x, scene.light.center + p.x * f.u + p.y * f.v);
+    const testing::Blocked b =
+        testing::is_blocked(scene, x, testing::light_of(scene).center + p.x * f.u + p.y * f.v);
     if (b.clear && b.hidden == certified_lit) return true;
   }
   return false;
@@ -92,13 +93,13 @@ struct Certified {
 /// Compares with 64 rays and confirms in double; false for the first contradiction.
 bool certificates_hold(const Scene& scene, Certified& counts) {
   const testing::View view(scene, 160, 120);
-  const SilhouetteResult r = silhouette_visibility(scene, view.rays, view.surface);
-  const auto o = trace_reference(scene, view.rays, view.surface, testing::every_pixel(view.surface),
-                                 {.samples = 64, .seed = 7}, true)
-                     .unblocked;
+  const SilhouetteResult r = view.see_silhouettes();
+  const auto o = trace_reference(view.rays, testing::light_of(scene), view.surface.receivers(),
+                                 testing::every_pixel(view.surface), {.samples = 64, .seed = 7}, true)
+                     .unoccluded;
   const double offset = detail::receiver_offset(view.rays.frame());
   for (std::size_t i = 0; i < o.size(); ++i) {
-    if (r.region[i] < 0 || is_behind(scene.light, view.surface.position[i])) continue;
+    if (r.region[i] < 0 || is_behind(testing::light_of(scene), view.surface.position[i])) continue;
     const bool is_lit = r.region[i] == 0;
     ++(is_lit ? counts.lit : counts.umbra);
     if (o[i] == (is_lit ? 1.0f : 0.0f)) continue;
@@ -119,7 +120,7 @@ struct Differences {
 /// Against 64 rays, and 4,096 where those differ by more than .08.
 void compare_with_rays(const Scene& scene, const std::string& what, Differences& d) {
   const testing::View view(scene, 160, 120);
-  const SilhouetteResult r = silhouette_visibility(scene, view.rays, view.surface);
+  const SilhouetteResult r = view.see_silhouettes();
   const auto all = testing::every_pixel(view.surface);
   const testing::Values coarse = view.trace(all, 64, 11);
   testing::Pixels suspects;

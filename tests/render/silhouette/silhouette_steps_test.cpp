@@ -297,7 +297,7 @@ TEST(ClippedSegments, FoldsOfAChainTakeUpNoMoreThanTheyMay) {
 
 Band band_of(const Scene& scene) {
   const RayFrame frame = ray_frame(scene);
-  const UnitLight light(scene.light);
+  const UnitLight light(testing::light_of(scene));
   const SceneEdges edges(scene, frame.origin, frame.scale);
   return make_band(LitScene(scene, light, edges), edges);
 }

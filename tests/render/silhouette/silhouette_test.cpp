@@ -19,7 +19,7 @@ const Vec3 kToLight{0, 0, -1};  // of receivers on a plane z = const
 
 SilhouetteResult see(const Scene& scene, const SurfaceBuffer& surface, int threads = 0) {
   const RayScene rays(scene, threads);
-  return silhouette_visibility(scene, rays, surface);
+  return testing::see_silhouettes(scene, rays, surface);
 }
 
 /// Receivers of a square grid on the plane z = const, in the light's frame.
@@ -37,7 +37,7 @@ Chord chord_of_edge(const Scene& scene, const Vec3& receiver, const Vec3& a, con
   const Vec3 x = receiver + detail::receiver_offset(ray_frame(scene)) * kToLight;
   Vec3 n = edge_plane(x, a, b);
   if (glm::dot(n, inside - x) < 0.0) n = -n;
-  return chord_of_plane(n, x, scene.light.radius);
+  return chord_of_plane(n, x, testing::light_of(scene).radius);
 }
 
 /// Largest difference to `truth(point)` over all receivers.
@@ -109,7 +109,7 @@ struct Compared {
 };
 Compared against_rays(const Scene& scene, int width, int height, int samples) {
   const testing::View view(scene, width, height);
-  SilhouetteResult r = silhouette_visibility(scene, view.rays, view.surface);
+  SilhouetteResult r = view.see_silhouettes();
   const Pixels all = testing::every_pixel(view.surface);
   const ErrorFigures figures =
       testing::penumbra_error(r.visibility, view.trace(all, samples, 101), view.trace(all, samples, 102));
@@ -143,8 +143,8 @@ TEST(Silhouette, IsTheSameForAnyNumberOfThreads) {
   for (const char* name : {"boxes-large", "foliage-medium"}) {
     const Scene scene = testing::data_scene(name);
     const testing::View one(scene, 200, 150, 1), two(scene, 200, 150, 2);
-    const SilhouetteResult a = silhouette_visibility(scene, one.rays, one.surface);
-    const SilhouetteResult b = silhouette_visibility(scene, two.rays, two.surface);
+    const SilhouetteResult a = one.see_silhouettes();
+    const SilhouetteResult b = two.see_silhouettes();
     EXPECT_EQ(a.visibility, b.visibility) << name;
     EXPECT_EQ(a.region, b.region) << name;
     EXPECT_EQ(a.counts.segments, b.counts.segments) << name;
@@ -154,7 +154,7 @@ TEST(Silhouette, IsTheSameForAnyNumberOfThreads) {
 /// A floor that does not cast, a camera above it, a light, and casters between.
 Scene scene_over_floor(std::vector<TriangleMesh> casters, const DiskLight& light) {
   Scene scene;
-  scene.light = light;
+  testing::light_of(scene) = light;
   scene.camera = {{3.1, 4.2, 5.3}, {0, 0.4, 0}, {0, 1, 0}, 45};
   scene.objects.push_back({"floor", make_plane(4.0, 3), Vec3(0.8), false});
   for (TriangleMesh& mesh : casters) scene.objects.push_back({"caster", std::move(mesh), Vec3(0.8), true});
@@ -214,9 +214,9 @@ TEST(Silhouette, RowsMeasureRegularPatterns) {
     const SurfaceBuffer surface = grid(4.0, 10.0, 24);
     const RayScene rays(scene, 0);
     SilhouetteOptions options;
-    const Values usual = silhouette_visibility(scene, rays, surface, options).visibility;
+    const Values usual = testing::see_silhouettes(scene, rays, surface, options).visibility;
     options.rows = 1024;
-    const Values fine = silhouette_visibility(scene, rays, surface, options).visibility;
+    const Values fine = testing::see_silhouettes(scene, rays, surface, options).visibility;
     for (std::size_t i = 0; i < usual.size(); ++i) EXPECT_NEAR(usual[i], fine[i], 0.005) << i;
   }
 }
@@ -225,8 +225,8 @@ TEST(Silhouette, CoincidentCastersAreOne) {
   const TriangleMesh box = make_box({0, 1.2, 0}, {0.6, 0.5, 0.4});
   const Scene one = scene_over_floor({box}, kLamp), two = scene_over_floor({box, box}, kLamp);
   const testing::View view(one, 128, 96), twice(two, 128, 96);
-  const SilhouetteResult a = silhouette_visibility(one, view.rays, view.surface);
-  const SilhouetteResult b = silhouette_visibility(two, twice.rays, view.surface);
+  const SilhouetteResult a = view.see_silhouettes();
+  const SilhouetteResult b = testing::see_silhouettes(two, twice.rays, view.surface);
   for (std::size_t i = 0; i < view.surface.size(); ++i)
     ASSERT_NEAR(a.visibility[i], b.visibility[i], 1e-6) << "pixel " << i;
 }
@@ -280,15 +280,15 @@ TEST(Silhouette, EmptyScenesAndPointLights) {
     EXPECT_EQ(r.visibility[i], 1.0f);
     EXPECT_EQ(r.region[i], 0);
   }
-  scene.light.radius = 0.0;
+  testing::light_of(scene).radius = 0.0;
   EXPECT_THROW(see(scene, grid(2.0, 5.0, 16)), UsageError);
   Scene point = testing::data_scene("cube-medium");
-  point.light.radius = 0.0;
+  testing::light_of(point).radius = 0.0;
   RenderOptions options;
   options.width = 80, options.height = 60;
-  options.method = Method::kHard;
+  options.method = "hard";
   const Image hard = render(point, options).image;
-  for (const Method method : {Method::kSilhouette, Method::kRays}) {
+  for (const char* method : {"silhouette", "rays"}) {
     options.method = method;
     EXPECT_EQ(render(point, options).image.at("visibility"), hard.at("visibility"));
   }
@@ -298,11 +298,14 @@ TEST(Silhouette, RaysTraceOnlyWhatIsNotCertified) {
   const Scene scene = testing::data_scene("torus-medium");
   RenderOptions options;
   options.width = 160, options.height = 120;
-  options.method = Method::kReference;
+  options.method = "reference";
   const RenderResult all = render(scene, options);
-  options.method = Method::kRays;
+  options.method = "rays";
   const RenderResult some = render(scene, options);
-  EXPECT_LT(some.stats["counts"]["rays"].get<double>(), 0.5 * all.stats["counts"]["rays"].get<double>());
+  const auto rays_of = [](const RenderResult& r) {
+    return static_cast<double>(testing::count_in(r.lights[0].counts, "rays"));
+  };
+  EXPECT_LT(rays_of(some), 0.5 * rays_of(all));
   const Values &a = all.image.at("visibility"), &b = some.image.at("visibility");
   const Values& region = some.image.at("region");
   // The same samples where rays are traced. Where nothing crosses the disk V is exact instead, also where the
@@ -322,7 +325,7 @@ TEST(Silhouette, CertifiesWhatNoFaceOverlaps) {
     const Scene scene = testing::data_scene(name);
     const RayScene rays(scene, 0);
     const SurfaceBuffer surface = make_surface_buffer(scene, rays, 160, 120);
-    const SilhouetteResult r = silhouette_visibility(scene, rays, surface);
+    const SilhouetteResult r = testing::see_silhouettes(scene, rays, surface);
     const testing::LitShare lit = testing::certified_share_of_free(scene, rays, surface, r.region, 3'000'000);
     std::printf("%-16s %.4f of what no face overlaps is certified lit (%zu pixels without certificate)\n",
                 name, lit.share, lit.tested);
@@ -334,8 +337,7 @@ TEST(Silhouette, CertifiesWhatNoFaceOverlaps) {
 TEST(Silhouette, CanBeCancelled) {
   const Scene scene = testing::data_scene("cube-medium");
   const testing::View view(scene, 64, 48);
-  EXPECT_THROW(silhouette_visibility(scene, view.rays, view.surface, {}, [](double) { return false; }),
-               Cancelled);
+  EXPECT_THROW(view.see_silhouettes({}, [](double) { return false; }), Cancelled);
 }
 
 }  // namespace

@@ -1,11 +1,7 @@
-#include "render/d_buffer/image_side.h"
+#include "render/d_buffer/visibility_pass.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-
-#include <glm/geometric.hpp>
-
-#include "render/d_buffer/passes.h"
 
 namespace penumbra::detail {
 namespace {
@@ -22,34 +18,35 @@ std::unique_ptr<Object> image_texture(const gl::Functions& gl, GLenum format, in
   return texture;
 }
 
-/// Whether rays are asked where entries contradict each other: the paper's own method knows no rays.
-bool checks(const DBufferOptions& o) {
+/// Whether pixels are resampled by rays. Not for what the paper does itself: it has no rays.
+bool resamples(const DBufferOptions& o) {
   return o.check == EntryCheck::kRays && o.contents == DBufferContents::kEdge &&
          o.curve == VisibilityCurve::kExact && o.center == CenterTest::kRay;
 }
 
-/// Whether the visibility without entries is in the image before the passes begin, at every pixel that no
-/// entry touches.
+/// Whether trace_center has put the visibility without entries into the image already, at every pixel. If not, the first
+/// pass finds it.
 bool is_known(const DBufferOptions& o, int targets) {
   return o.center == CenterTest::kRay && targets <= 1;
 }
 
-/// Pixels whose entries contradict what is known of the light's center, ascending; the shader adds 2 to their
-/// visibility, which is taken off.
-std::vector<std::uint32_t> take_doubts(std::vector<float>& visibility) {
-  std::vector<std::uint32_t> out;
-  for (std::uint32_t i = 0; i < visibility.size(); ++i) {
-    if (visibility[i] < 1.5f) continue;
-    visibility[i] -= 2.0f;
-    out.push_back(i);
-  }
-  return out;
-}
-
 }  // namespace
 
-/// One set for each way of reading the D-buffer.
-struct DBufferShading::Programs {
+/// In the middle between the largest V and the smallest marked one.
+std::vector<std::uint32_t> take_uncertain_pixels(std::span<float> output) {
+  constexpr float kOffset = kUncertainOffset;
+  constexpr float kMarked = 0.5f * (1.0f + kOffset);
+  std::vector<std::uint32_t> uncertain;
+  for (std::uint32_t i = 0; i < output.size(); ++i) {
+    if (output[i] < kMarked) continue;
+    output[i] -= kOffset;
+    uncertain.push_back(i);
+  }
+  return uncertain;
+}
+
+/// The shaders for one combination of options.
+struct VisibilityPass::Programs {
   Programs(const gl::Functions& gl, const DBufferOptions& options, int targets)
       : contents(options.contents),
         curve(options.curve),
@@ -63,7 +60,8 @@ struct DBufferShading::Programs {
                    {{"TARGETS", targets},
                     {"CONTENTS", static_cast<int>(contents)},
                     {"CURVE", static_cast<int>(curve)},
-                    {"ENTRIES", entries}}) {}
+                    {"ENTRIES", entries},
+                    {"UNCERTAIN_OFFSET", kUncertainOffset}}) {}
   bool fits(const DBufferOptions& options, int targets) const {
     return contents == options.contents && curve == options.curve && entries == options.entries &&
            known == is_known(options, targets) && target_count == targets;
@@ -77,12 +75,12 @@ struct DBufferShading::Programs {
   Program center, select, visibility;
 };
 
-DBufferShading::DBufferShading(const gl::Functions& gl)
+VisibilityPass::VisibilityPass(const gl::Functions& gl)
     : gl_(gl), tile_array_(gl, Object::Kind::kVertexArray), tile_buffer_(gl, Object::Kind::kBuffer) {}
 
-DBufferShading::~DBufferShading() = default;
+VisibilityPass::~VisibilityPass() = default;
 
-void DBufferShading::set_surface(const Receivers& surface, std::vector<glm::vec4> positions,
+void VisibilityPass::set_surface(const Receivers& surface, std::vector<glm::vec4> positions,
                                  const RayScene& rays) {
   width_ = surface.width;
   height_ = surface.height;
@@ -101,11 +99,11 @@ void DBufferShading::set_surface(const Receivers& surface, std::vector<glm::vec4
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
   center_seen_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
-  lonely_ = lonely_pixels({width_, height_, positions_, normals_, {}});
+  isolated_ = isolated_pixels({width_, height_, positions_, normals_, {}});
   seen_.clear();
 }
 
-void DBufferShading::trace_center(const DiskLight& light) {
+void VisibilityPass::trace_center(const DiskLight& light) {
   center_rays_->center_seen(light, seen_);
   const auto upload = [&](const Object& texture, const std::vector<float>& texels) {
     gl_.BindTexture(GL_TEXTURE_2D, texture);
@@ -121,15 +119,15 @@ void DBufferShading::trace_center(const DiskLight& light) {
   upload(*visibility_texture_, without_entries_);
 }
 
-ImageReceivers DBufferShading::receivers(const DBufferView& view) const {
+ImageReceivers VisibilityPass::receivers(const DBufferView& view) const {
   return {width_, height_, positions_, view.axes, view.offset};
 }
 
-ReceiverGrid DBufferShading::receiver_grid(const DBufferView& view, int size) const {
-  return {receivers(view), normals_, seen_, view.targets[0], size, view.radius};
+ReceiverGrid VisibilityPass::receiver_grid(const DBufferView& view, int size) const {
+  return {receivers(view), normals_, seen_, view.targets[0], size, view.radius()};
 }
 
-DBufferShading::Programs& DBufferShading::programs(const DBufferView& view, const DBufferOptions& options) {
+VisibilityPass::Programs& VisibilityPass::programs(const DBufferView& view, const DBufferOptions& options) {
   const int targets = static_cast<int>(view.targets.size());
   for (const auto& known : programs_)
     if (known->fits(options, targets)) return *known;
@@ -137,7 +135,7 @@ DBufferShading::Programs& DBufferShading::programs(const DBufferView& view, cons
   return *programs_.back();
 }
 
-void DBufferShading::bind_textures(const Program& program, const DBufferLayers& layers,
+void VisibilityPass::bind_textures(const Program& program, const DBufferLayers& layers,
                                    GLuint records) const {
   struct Binding {
     const char* name;
@@ -167,13 +165,13 @@ void DBufferShading::bind_textures(const Program& program, const DBufferLayers& 
   gl_.ActiveTexture(GL_TEXTURE0);
 }
 
-void DBufferShading::shade_pixels(const Program& program, const DBufferView& view,
+void VisibilityPass::shade_pixels(const Program& program, const DBufferView& view,
                                   const DBufferLayers& layers, GLuint records) const {
   program.use();
   const auto at = [&](const char* name) { return program.uniform(name); };
   gl_.UniformMatrix3fv(at("light_axes"), 1, GL_FALSE, &view.axes[0][0]);
   gl_.Uniform3f(at("light_offset"), view.offset.x, view.offset.y, view.offset.z);
-  gl_.Uniform1f(at("radius"), static_cast<float>(view.radius));
+  gl_.Uniform1f(at("radius"), static_cast<float>(view.radius()));
   gl_.Uniform1f(at("near_depth"), static_cast<float>(kNearDepth));
   std::vector<glm::mat3> axes;
   std::vector<glm::vec4> windows;
@@ -190,7 +188,7 @@ void DBufferShading::shade_pixels(const Program& program, const DBufferView& vie
   gl_.DrawArrays(GL_TRIANGLES, 0, tile_vertices_);
 }
 
-std::vector<glm::vec2> DBufferShading::tiles(const DBufferView& view, const ReceiverGrid& grid,
+std::vector<glm::vec2> VisibilityPass::tiles(const DBufferView& view, const ReceiverGrid& grid,
                                              const EntryGeometry& geometry,
                                              const DBufferOptions& options) const {
   if (!is_known(options, static_cast<int>(view.targets.size())) || grid.is_everywhere()) return whole_image();
@@ -199,7 +197,7 @@ std::vector<glm::vec2> DBufferShading::tiles(const DBufferView& view, const Rece
 }
 
 /// The passes draw them at depth 0.5.
-void DBufferShading::upload_tiles(const std::vector<glm::vec2>& tiles) {
+void VisibilityPass::upload_tiles(const std::vector<glm::vec2>& tiles) {
   tile_vertices_ = static_cast<GLsizei>(tiles.size());
   gl_.BindVertexArray(tile_array_);
   gl_.BindBuffer(GL_ARRAY_BUFFER, tile_buffer_);
@@ -209,7 +207,7 @@ void DBufferShading::upload_tiles(const std::vector<glm::vec2>& tiles) {
   gl_.EnableVertexAttribArray(0);
 }
 
-void DBufferShading::test_center_by_depth(const Programs& programs, const DBufferView& view,
+void VisibilityPass::test_center_by_depth(const Programs& programs, const DBufferView& view,
                                           const DBufferLayers& layers, GLuint records) {
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *center_seen_, 0);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, 0, 0);
@@ -219,18 +217,18 @@ void DBufferShading::test_center_by_depth(const Programs& programs, const DBuffe
   gl_.Finish();
 }
 
-/// Asks rays where entries contradict each other.
-void DBufferShading::check(const DiskLight& light, std::span<const std::uint32_t> doubtful,
-                           std::vector<float>& visibility) {
-  const auto ask = [&](std::span<const std::uint32_t> pixels) {
+/// Step 8.
+void VisibilityPass::resample(const DiskLight& light, std::span<const std::uint32_t> uncertain,
+                              std::vector<float>& visibility) {
+  const auto sample = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
   };
-  sampled_ = steps_.ask({width_, height_, positions_, normals_, open_}, lonely_, doubtful, ask, visibility);
+  resampled_ = resampler_.resample({width_, height_, positions_, normals_, open_}, isolated_, uncertain,
+                                   sample, visibility);
 }
 
-/// Two passes over the image: most pixels are decided by the first, the rest are marked by its depth for the
-/// second.
-std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferView& view,
+/// Two passes over the image: the first decides most pixels and marks the others by depth for the second.
+std::vector<float> VisibilityPass::shade(const DiskLight& light, const DBufferView& view,
                                          const std::vector<glm::vec2>& tiles, const DBufferLayers& layers,
                                          GLuint records, const DBufferOptions& options) {
   Programs& with = programs(view, options);
@@ -251,9 +249,9 @@ std::vector<float> DBufferShading::shade(const DiskLight& light, const DBufferVi
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   gl_.ReadBuffer(color);
   gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, out.data());
-  const std::vector<std::uint32_t> doubtful = take_doubts(out);
-  sampled_ = 0;
-  if (checks(options)) check(light, doubtful, out);
+  const std::vector<std::uint32_t> uncertain = take_uncertain_pixels(out);
+  resampled_ = 0;
+  if (resamples(options)) resample(light, uncertain, out);
   return out;
 }
 

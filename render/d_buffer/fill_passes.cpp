@@ -1,4 +1,4 @@
-#include "render/d_buffer/passes.h"
+#include "render/d_buffer/fill_passes.h"
 
 #include <cstddef>
 
@@ -15,16 +15,16 @@ void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std:
   gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
-/// Whether penumbra entries have to stand a comparison with the first surface. Where rays tell which
-/// receivers see the light's center those lie on or before that surface, so that the nearest entry before
-/// them is before it too.
+/// Whether penumbra entries are kept only in front of the first surface. That need not be tested for the nearest ones
+/// where rays tell which receivers see the light's center: such a receiver lies on or before the first surface, so the
+/// nearest entry before it is before the surface too.
 bool needs_first_surface(const DBufferOptions& options) {
   return options.center == CenterTest::kDepth || options.conflict == Conflict::kFurthest;
 }
 
 }  // namespace
 
-DBufferPasses::DBufferPasses(const gl::Functions& gl)
+FillPasses::FillPasses(const gl::Functions& gl)
     : gl_(gl),
       occluder_program_(gl, {{GL_VERTEX_SHADER, "d_buffer_occluder.vert.glsl"},
                              {GL_FRAGMENT_SHADER, "d_buffer_occluder.frag.glsl"}}),
@@ -38,19 +38,16 @@ DBufferPasses::DBufferPasses(const gl::Functions& gl)
       record_buffer_(gl, Object::Kind::kBuffer),
       record_texture_(gl, Object::Kind::kTexture) {}
 
-void DBufferPasses::upload_casters(std::vector<glm::vec3> points, std::vector<std::uint32_t> indices,
-                                   std::vector<CasterRange> casters) {
-  points_ = std::move(points);
-  indices_ = std::move(indices);
+void FillPasses::upload_casters(CasterTriangles casters) {
   casters_ = std::move(casters);
   gl_.BindVertexArray(caster_array_);
-  fill(gl_, GL_ARRAY_BUFFER, caster_points_, points_, GL_STATIC_DRAW);
-  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, caster_indices_, indices_, GL_STATIC_DRAW);
+  fill(gl_, GL_ARRAY_BUFFER, caster_points_, casters_.points, GL_STATIC_DRAW);
+  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, caster_indices_, casters_.indices, GL_STATIC_DRAW);
   gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   gl_.EnableVertexAttribArray(0);
 }
 
-void DBufferPasses::upload_entries(const EntryGeometry& geometry) {
+void FillPasses::upload_entries(const EntryGeometry& geometry) {
   fill(gl_, GL_ARRAY_BUFFER, penumbra_vertices_, geometry.penumbra, GL_STREAM_DRAW);
   fill(gl_, GL_ARRAY_BUFFER, umbra_vertices_, geometry.umbra, GL_STREAM_DRAW);
   fill(gl_, GL_TEXTURE_BUFFER, record_buffer_, geometry.records, GL_STREAM_DRAW);
@@ -60,11 +57,11 @@ void DBufferPasses::upload_entries(const EntryGeometry& geometry) {
   umbra_count_ = geometry.umbra.size();
 }
 
-void DBufferPasses::set_idle(const std::vector<bool>& idle) {
-  for (std::size_t i = 0; i < casters_.size(); ++i) casters_[i].idle = idle[i];
+void FillPasses::set_casters_that_cannot_occlude(const std::vector<bool>& flags) {
+  for (std::size_t i = 0; i < flags.size(); ++i) casters_.ranges[i].cannot_occlude = flags[i];
 }
 
-void DBufferPasses::set_target(const gl::Program& program, const Target& target) const {
+void FillPasses::set_target(const gl::Program& program, const Target& target) const {
   const glm::mat3 axes(target.axes);
   float window[4];
   for (std::size_t k = 0; k < 4; ++k) window[k] = static_cast<float>(target.window[k]);
@@ -73,25 +70,25 @@ void DBufferPasses::set_target(const gl::Program& program, const Target& target)
   gl_.Uniform1f(program.uniform("near_depth"), static_cast<float>(kNearDepth));
 }
 
-void DBufferPasses::attach(const Layer& layer, int index) const {
+void FillPasses::attach(const Layer& layer, int index) const {
   gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, layer.id.texture, 0, index);
   gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layer.depth.texture, 0, index);
   const GLenum color = GL_COLOR_ATTACHMENT0;
   gl_.DrawBuffers(1, &color);
 }
 
-void DBufferPasses::bind(int unit, GLenum kind, GLuint texture) const {
+void FillPasses::bind(int unit, GLenum kind, GLuint texture) const {
   gl_.ActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
   gl_.BindTexture(kind, texture);
 }
 
-/// All; only faces towards the light's center, where a caster shows no others.
-void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset) {
+/// Every caster that can occlude; only faces towards the light's center, where a caster shows no others.
+void FillPasses::draw_casters(const Target& target, const DBufferView& view) {
   set_target(occluder_program_, target);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, caster_indices_);
-  for (const CasterRange& caster : casters_) {
-    if (caster.idle) continue;
-    if (shows_only_fronts(caster, axes, offset)) gl_.Enable(GL_CULL_FACE);
+  for (const CasterRange& caster : casters_.ranges) {
+    if (caster.cannot_occlude) continue;
+    if (shows_only_fronts(caster, view)) gl_.Enable(GL_CULL_FACE);
     gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
     const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) *
                                                       sizeof(std::uint32_t));
@@ -100,32 +97,31 @@ void DBufferPasses::draw_casters(const Target& target, const glm::mat3& axes, co
   }
 }
 
-void DBufferPasses::draw_read_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset,
-                                      const ReceiverGrid& receivers) {
+/// Only triangles that a receiver will read.
+void FillPasses::draw_read_casters(const Target& target, const DBufferView& view,
+                                   const ReceiverGrid& receivers) {
   set_target(occluder_program_, target);
-  const std::vector<std::uint32_t> read =
-      triangles_before_hidden(points_, indices_, casters_, axes, offset, receivers);
+  const std::vector<std::uint32_t> read = triangles_before_hidden(casters_, view, receivers);
   fill(gl_, GL_ELEMENT_ARRAY_BUFFER, read_indices_, read, GL_STREAM_DRAW);
   gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(read.size()), GL_UNSIGNED_INT, nullptr);
 }
 
-/// First surface of all; then the last of those that face the light's center.
-void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes,
-                                   const glm::vec3& offset, const ReceiverGrid& receivers,
-                                   const DBufferLayers& layers, const DBufferOptions& options) {
+/// The first surface of all; then the last of those that face the light's center.
+void FillPasses::draw_occluders(const DBufferView& view, const ReceiverGrid& receivers,
+                                const DBufferLayers& layers, const DBufferOptions& options) {
   occluder_program_.use();
-  gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &axes[0][0]);
-  gl_.Uniform3f(occluder_program_.uniform("light_offset"), offset.x, offset.y, offset.z);
+  gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &view.axes[0][0]);
+  gl_.Uniform3f(occluder_program_.uniform("light_offset"), view.offset.x, view.offset.y, view.offset.z);
   gl_.BindVertexArray(caster_array_);
   gl_.Enable(GL_CLIP_DISTANCE0);
   gl_.CullFace(GL_FRONT);  // targets look along right × up, which turns windings over
   const float farthest = 0.0f, nearest = 1.0f;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
+  for (std::size_t i = 0; i < view.targets.size(); ++i) {
     if (needs_first_surface(options)) {
       attach(layers.occluder, static_cast<int>(i));
       gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
       gl_.ClearBufferfv(GL_DEPTH, 0, &farthest);
-      draw_casters(targets[i], axes, offset);
+      draw_casters(view.targets[i], view);
     }
     gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
     gl_.FramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, layers.last.texture, 0,
@@ -133,26 +129,26 @@ void DBufferPasses::draw_occluders(const std::vector<Target>& targets, const glm
     gl_.ClearBufferfv(GL_DEPTH, 0, &nearest);
     gl_.DepthFunc(GL_LESS);
     if (receivers.is_everywhere())
-      draw_casters(targets[i], axes, offset);
+      draw_casters(view.targets[i], view);
     else
-      draw_read_casters(targets[i], axes, offset, receivers);
+      draw_read_casters(view.targets[i], view, receivers);
     gl_.DepthFunc(GL_GREATER);
   }
   gl_.Disable(GL_CLIP_DISTANCE0);
 }
 
-void DBufferPasses::draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
-                                 const DBufferOptions& options) {
+void FillPasses::draw_entries(const DBufferView& view, const DBufferLayers& layers,
+                              const DBufferOptions& options) {
   gl_.BindVertexArray(entry_array_);
   const Entries penumbra{penumbra_vertices_, penumbra_count_}, umbra{umbra_vertices_, umbra_count_};
-  draw_kind(targets, layers, EntryKind::kPenumbra, penumbra,
+  draw_kind(view.targets, layers, EntryKind::kPenumbra, penumbra,
             needs_first_surface(options) ? Against::kBeforeFirst : Against::kNothing, options);
-  draw_kind(targets, layers, EntryKind::kAbove, umbra, Against::kBeforeLast, options);
-  draw_kind(targets, layers, EntryKind::kBelow, umbra, Against::kBehindLast, options);
+  draw_kind(view.targets, layers, EntryKind::kAbove, umbra, Against::kBeforeLast, options);
+  draw_kind(view.targets, layers, EntryKind::kBelow, umbra, Against::kBehindLast, options);
 }
 
-void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
-                              const Entries& entries, Against against, const DBufferOptions& options) {
+void FillPasses::draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
+                           const Entries& entries, Against against, const DBufferOptions& options) {
   constexpr auto kStride = sizeof(EntryVertex);
   gl_.BindBuffer(GL_ARRAY_BUFFER, entries.vertices);
   gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
@@ -165,7 +161,7 @@ void DBufferPasses::draw_kind(const std::vector<Target>& targets, const DBufferL
   if (layers.entries > 1) draw_layer(targets, layers, kind, true, entries, against, options);
 }
 
-const gl::Program& DBufferPasses::entry_program(int surface, bool peel) {
+const gl::Program& FillPasses::entry_program(int surface, bool peel) {
   std::unique_ptr<gl::Program>& program = entry_programs_[surface][peel];
   if (!program)
     program = std::make_unique<gl::Program>(
@@ -176,7 +172,7 @@ const gl::Program& DBufferPasses::entry_program(int surface, bool peel) {
   return *program;
 }
 
-void DBufferPasses::bind_filter(const gl::Program& program, const Layers& surface, const Layer& first) const {
+void FillPasses::bind_filter(const gl::Program& program, const Layers& surface, const Layer& first) const {
   bind(0, GL_TEXTURE_2D_ARRAY, surface.texture);
   bind(1, GL_TEXTURE_2D_ARRAY, first.id.texture);
   bind(2, GL_TEXTURE_2D_ARRAY, first.depth.texture);
@@ -189,9 +185,9 @@ void DBufferPasses::bind_filter(const gl::Program& program, const Layers& surfac
 }
 
 /// The nearest (or furthest) entries of one kind, or the nearest that come after those.
-void DBufferPasses::draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers,
-                               EntryKind kind, bool second, const Entries& entries, Against against,
-                               const DBufferOptions& options) {
+void FillPasses::draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
+                            bool second, const Entries& entries, Against against,
+                            const DBufferOptions& options) {
   const Layer& into = second ? layers.second_entries : layers.first_entries;
   const bool furthest = options.conflict == Conflict::kFurthest;
   const Layers& surface = against == Against::kBeforeFirst ? layers.occluder.depth : layers.last;

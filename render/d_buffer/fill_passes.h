@@ -1,4 +1,9 @@
-// The draw calls that fill a D-buffer: occluders, then entries.
+// D-buffer steps 5 and 6: the draw calls that fill the D-buffer, occluders first, then entries.
+//
+// "Umbra and penumbra volumes" (2004), sections 3.1 to 3.3. Into every target go the first surface (face and depth), the
+// depth of the last surface that faces the light's center, penumbra entries in front of the first surface, umbra entries
+// in front of the last surface, and umbra entries behind it. An umbra begins anew behind every surface that faces the
+// center, so a receiver between two surfaces reads other umbra entries than one behind both.
 #pragma once
 
 #include <cstdint>
@@ -8,27 +13,26 @@
 #include "render/d_buffer/caster_filter.h"
 #include "render/d_buffer/d_buffer.h"
 #include "render/d_buffer/entries/geometry.h"
-#include "render/d_buffer/entries/targets.h"
 #include "render/d_buffer/layers.h"
+#include "render/d_buffer/view.h"
 
 namespace penumbra::detail {
 
-class DBufferPasses {
+class FillPasses {
  public:
-  explicit DBufferPasses(const gl::Functions& gl);
-  /// Casters in a frame of the scene; once.
-  void upload_casters(std::vector<glm::vec3> points, std::vector<std::uint32_t> indices,
-                      std::vector<CasterRange> casters);
-  /// One flag a caster: those that hide nothing are not drawn.
-  void set_idle(const std::vector<bool>& idle);
+  explicit FillPasses(const gl::Functions& gl);
+  /// Once.
+  void upload_casters(CasterTriangles casters);
+  /// One flag a caster; true: it is not drawn.
+  void set_casters_that_cannot_occlude(const std::vector<bool>& flags);
   void upload_entries(const EntryGeometry& geometry);
-  /// Fills `layers` for the light given by its axes and offset (scene frame → light's frame). Where rays tell
-  /// which receivers see the light's center, only what those that do not will read.
-  void draw_occluders(const std::vector<Target>& targets, const glm::mat3& axes, const glm::vec3& offset,
-                      const ReceiverGrid& receivers, const DBufferLayers& layers,
+  /// Fills the first and the last surface of `layers`. The first is drawn only for options that read it; of the last only
+  /// what `receivers` read. The framebuffer that is bound is used.
+  void draw_occluders(const DBufferView& view, const ReceiverGrid& receivers, const DBufferLayers& layers,
                       const DBufferOptions& options);
-  void draw_entries(const std::vector<Target>& targets, const DBufferLayers& layers,
-                    const DBufferOptions& options);
+  /// Fills the entries of `layers`, after draw_occluders and upload_entries.
+  void draw_entries(const DBufferView& view, const DBufferLayers& layers, const DBufferOptions& options);
+  /// The buffer texture of EntryGeometry::records.
   GLuint records() const { return record_texture_; }
 
  private:
@@ -38,9 +42,8 @@ class DBufferPasses {
     const gl::Object& vertices;
     std::size_t count;
   };
-  void draw_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset);
-  void draw_read_casters(const Target& target, const glm::mat3& axes, const glm::vec3& offset,
-                         const ReceiverGrid& receivers);
+  void draw_casters(const Target& target, const DBufferView& view);
+  void draw_read_casters(const Target& target, const DBufferView& view, const ReceiverGrid& receivers);
   void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
                  const Entries& entries, Against against, const DBufferOptions& options);
   void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
@@ -53,13 +56,11 @@ class DBufferPasses {
 
   const gl::Functions& gl_;
   gl::Program occluder_program_;
-  std::unique_ptr<gl::Program> entry_programs_[3]
-                                              [2];  ///< by SURFACE and PEEL of the shader, made when needed
+  /// By SURFACE and PEEL of d_buffer_entry.frag.glsl, made when needed.
+  std::unique_ptr<gl::Program> entry_programs_[3][2];
   gl::Object caster_points_, caster_indices_, read_indices_, caster_array_, penumbra_vertices_,
       umbra_vertices_, entry_array_, record_buffer_, record_texture_;
-  std::vector<glm::vec3> points_;
-  std::vector<std::uint32_t> indices_;
-  std::vector<CasterRange> casters_;
+  CasterTriangles casters_;
   std::size_t penumbra_count_ = 0, umbra_count_ = 0;
 };
 

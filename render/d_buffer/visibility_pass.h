@@ -1,0 +1,90 @@
+// D-buffer step 7: visibility of an image's surface points by the D-buffer. Also holds what steps 1, 3 and 8 know of the
+// image.
+//
+// In: surface points (once per camera), the filled D-buffer, a light. Out: V per pixel. "Umbra and penumbra volumes"
+// (2004), section 4. The image is shaded in two passes, since software rasterizers run both sides of every branch:
+// d_buffer_select.frag.glsl decides pixels where no entry applies and marks the others by depth,
+// d_buffer_visibility.frag.glsl evaluates those.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "render/d_buffer/center_rays.h"
+#include "render/d_buffer/d_buffer.h"
+#include "render/d_buffer/entries/receiver_grid.h"
+#include "render/d_buffer/entries/tiles.h"
+#include "render/d_buffer/layers.h"
+#include "render/d_buffer/resampler.h"
+#include "render/d_buffer/view.h"
+
+namespace penumbra::detail {
+
+/// How the visibility shader tells that a pixel's entries contradict what is known of the light's center: its output is
+/// then V + this, else V, and V lies in [0, 1]. The shader gets the number as UNCERTAIN_OFFSET; it must be at least 2.
+inline constexpr int kUncertainOffset = 2;
+
+/// Decodes the output of the visibility shader: `output` becomes V. Returns the pixels that were marked as uncertain,
+/// ascending. Cost O(pixels).
+std::vector<std::uint32_t> take_uncertain_pixels(std::span<float> output);
+
+class VisibilityPass {
+ public:
+  explicit VisibilityPass(const gl::Functions& gl);
+  ~VisibilityPass();
+  /// Uploads the surface points. `positions`: as from receiver_positions (casters.h). `rays` must outlive this.
+  void set_surface(const Receivers& surface, std::vector<glm::vec4> positions, const RayScene& rays);
+  bool has_surface() const { return width_ > 0; }
+  int automatic_size() const { return d_buffer_size_for(width_, height_); }
+
+  /// Step 1: which receivers see the light's center, by one ray each. From it and the horizon follows the visibility
+  /// where no entry applies.
+  void trace_center(const DiskLight& light);
+  /// Step 3: which receivers read what of the only target. Call trace_center before.
+  ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
+
+  /// The parts of the image that shade has to visit, as from entries/tiles.h: all of it where the visibility without
+  /// entries is not known yet. `grid`: as from receiver_grid, or everywhere. Does not use OpenGL.
+  std::vector<glm::vec2> tiles(const DBufferView& view, const ReceiverGrid& grid,
+                               const EntryGeometry& geometry, const DBufferOptions& options) const;
+  /// Visibility of every pixel. `tiles`: as from this class; `records`: the buffer texture of EntryGeometry::records. The
+  /// framebuffer that is bound is used; its attachments are replaced.
+  std::vector<float> shade(const DiskLight& light, const DBufferView& view,
+                           const std::vector<glm::vec2>& tiles, const DBufferLayers& layers, GLuint records,
+                           const DBufferOptions& options);
+  /// How many pixels of the last image were sampled by rays (EntryCheck::kRays).
+  std::size_t resampled() const { return resampled_; }
+
+ private:
+  struct Programs;
+  ImageReceivers receivers(const DBufferView& view) const;
+  Programs& programs(const DBufferView& view, const DBufferOptions& options);
+  void upload_tiles(const std::vector<glm::vec2>& tiles);
+  void test_center_by_depth(const Programs& programs, const DBufferView& view, const DBufferLayers& layers,
+                            GLuint records);
+  void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
+                    GLuint records) const;
+  void resample(const DiskLight& light, std::span<const std::uint32_t> uncertain,
+                std::vector<float>& visibility);
+  void bind_textures(const gl::Program& program, const DBufferLayers& layers, GLuint records) const;
+
+  const gl::Functions& gl_;
+  int width_ = 0, height_ = 0;
+  std::size_t resampled_ = 0;
+  std::unique_ptr<gl::Object> surface_position_, surface_normal_, center_seen_, visibility_texture_,
+      mark_texture_;
+  std::unique_ptr<CenterRays> center_rays_;
+  std::vector<glm::vec4> positions_, normals_;
+  /// Of each pixel: 1 where it sees the light's center, else 0; the disk's fraction above its horizon; V without entries.
+  std::vector<float> seen_, open_, without_entries_;
+  std::vector<std::uint32_t> isolated_;
+  Resampler resampler_;
+  gl::Object tile_array_, tile_buffer_;
+  GLsizei tile_vertices_ = 0;
+  /// One set for each combination of options that occurred.
+  std::vector<std::unique_ptr<Programs>> programs_;
+};
+
+}  // namespace penumbra::detail

@@ -1,0 +1,40 @@
+#include "render/silhouette/collect/lit_scene.h"
+
+#include <algorithm>
+
+#include "mesh/vectors.h"
+#include "render/rays/ray_scene.h"
+
+namespace penumbra::detail {
+namespace {
+
+double extent_of(const Scene& scene, const Bounds& receivers, const UnitLight& light) {
+  Bounds box = scene.bounds();
+  box.add(receivers);
+  double extent = 1.0;
+  for (int corner = 0; corner < 8; ++corner)
+    extent = std::max(extent, largest_component(light.point({corner & 1 ? box.high.x : box.low.x,
+                                                             corner & 2 ? box.high.y : box.low.y,
+                                                             corner & 4 ? box.high.z : box.low.z})));
+  return extent;
+}
+
+}  // namespace
+
+LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const SceneEdges& edges,
+                   const Bounds& receivers, std::span<const char> flags)
+    : scene(lit_scene),
+      light(unit_light),
+      cannot_occlude(flags),
+      depth(kLightOffset / edges.scale() * light.per_radius()),
+      boxes(scene.objects.size()),
+      extent(extent_of(scene, receivers, light)) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
+    if (!object.casts || object.mesh.empty() || (!cannot_occlude.empty() && cannot_occlude[i])) continue;
+    boxes[i] = edges.points(i).box_in(light);
+    all_in_front = all_in_front && boxes[i].low.z > depth;
+  }
+}
+
+}  // namespace penumbra::detail
