@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Rounding in `SideOfPlane`, so that coplanar neighbours count as lying on the plane: the sine of an
+/// Rounding in `SideOfPlane`, so that coplanar neighbors count as lying on the plane: the sine of an
 /// elevation.
 constexpr double kOnPlane = 1e-11;
 
@@ -217,7 +217,7 @@ class CornerFinder {
     }
   }
 
-  /// All neighbours lie beyond the center's tangent plane at the angle: nothing of the star hides the disk's
+  /// All neighbors lie beyond the center's tangent plane at the angle: nothing of the star hides the disk's
   /// first point.
   bool ring_is_beyond(const Star& star, double angle) const {
     const glm::dvec2 direction(std::cos(angle), std::sin(angle));
