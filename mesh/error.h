@@ -13,8 +13,8 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A mesh that cannot be used: unreadable, truncated, empty, NaN or infinite coordinates, indices out of
-/// range.
+/// A mesh that cannot be used: unreadable, truncated, empty, coordinates that are NaN or infinite, indices
+/// out of range.
 class MeshError : public Error {
  public:
   using Error::Error;

@@ -1,4 +1,6 @@
-// What there is to know about a mesh before its shadow is computed: `penumbra inspect`.
+// What there is to know about a mesh before its shadow is computed.
+//
+// In: a built mesh. Out: counts and measures as data, and a text of them for people.
 #pragma once
 
 #include <string>
@@ -7,21 +9,26 @@
 
 namespace penumbra {
 
-/// Counts are of the built mesh (cut edges count as boundary), those in `build` of the input.
 struct MeshFindings {
+  /// Counts of the built mesh. The two sides of a cut edge count as two boundary edges.
   std::size_t vertices = 0, edges = 0, faces = 0;
   std::size_t components = 0, closed_components = 0;
   std::size_t boundary_edges = 0, boundary_vertices = 0;
+  /// What TriangleMesh::build did with the input.
   BuildReport build;
+  /// Every component is closed, and there is at least one.
   bool closed = false;
   Bounds bounds;
-  double signed_volume = 0.0;  ///< sum over closed components, scene units³
-  double surface_area = 0.0;   ///< scene units²
+  /// The sum over closed components, scene units³.
+  double signed_volume = 0.0;
+  /// Scene units².
+  double surface_area = 0.0;
 };
+
 /// Cost O(V + E + F).
 MeshFindings inspect(const TriangleMesh& mesh);
-std::string to_text(const MeshFindings& findings);  ///< some lines for a person
-std::string to_json(
-    const MeshFindings& findings);  ///< one JSON object, keys as the members are named; bounds null if empty
+
+/// Some lines for a person. Ends with a newline.
+std::string to_text(const MeshFindings& findings);
 
 }  // namespace penumbra

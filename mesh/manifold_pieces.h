@@ -1,15 +1,17 @@
-// Any set of triangles as the faces of an oriented manifold with boundary, without losing one of them.
+// Turns any set of triangles into the faces of an oriented manifold with boundary, without losing one of
+// them.
 //
-// In: positions and triangles as they come. Out: triangles over new vertices such that every edge has one
-// face, or two that run along it in opposite directions, and the faces at every vertex form one fan. The
-// rule, after Guéziec et al., "Cutting and Stitching: Converting Sets of Polygons to Manifold Surfaces"
-// (2001), does not depend on the faces' order:
-//   1. an edge with exactly two faces in opposite directions connects them; any other edge is cut;
-//   2. a vertex gets one copy for each fan of faces connected around it;
-//   3. where a cut leaves both sides of an edge between the same two copies, they are stitched again. A
-//   closed surface
-//      that merely touches another along an edge, or carries a fin, so remains closed.
-// Why 3 is never ambiguous: an open fan has two ends, one running out of the vertex and one into it.
+// In: positions and triangles as they come. Out: triangles over new vertices. Every edge has one face, or two
+// that run along it in opposite directions. The faces at every vertex form one fan.
+//
+// The rule follows Guéziec et al., "Cutting and Stitching: Converting Sets of Polygons to Manifold Surfaces"
+// (2001). It does not depend on the order of the faces:
+//   1. An edge with exactly two faces, in opposite directions, connects them. Any other edge is cut.
+//   2. A vertex gets one copy for each fan of faces that are connected around it.
+//   3. Where both sides of a cut run between the same two copies, they are stitched again. So a closed
+//      surface stays closed where it carries a fin, or merely touches another one along an edge.
+// Rule 3 is never ambiguous: an open fan has two ends, one that runs out of the vertex and one that runs into
+// it.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +29,17 @@ inline constexpr std::uint32_t kNoHalfEdge = std::numeric_limits<std::uint32_t>:
 struct ManifoldPieces {
   std::vector<Vec3> positions;
   std::vector<IndexedTriangle> triangles;
-  std::vector<std::uint32_t> source_triangles;  ///< per triangle its index in the input
-  std::vector<std::uint32_t> opposite;  ///< per half-edge the one across it, kNoHalfEdge at a boundary
-  BuildReport report;                   ///< all but the flips
+  /// For each triangle its index in the input.
+  std::vector<std::uint32_t> source_triangles;
+  /// For each half-edge the one across it; kNoHalfEdge at a boundary.
+  std::vector<std::uint32_t> opposite;
+  /// All but the counts of what was flipped.
+  BuildReport report;
 };
 
-/// Throws MeshError for an index out of range, a coordinate that is not finite, or more faces than ids can
-/// name.
+/// `weld` merges vertices of exactly equal position first. Throws MeshError for an index out of range, a
+/// coordinate that is not finite, or more faces than ids can name. Expected cost O(V + F log k), k faces at a
+/// vertex.
 ManifoldPieces cut_to_manifold(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles,
                                bool weld);
 

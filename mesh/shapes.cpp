@@ -183,7 +183,7 @@ TriangleMesh make_cylinder(const Vec3& center, double radius, double half_height
 TriangleMesh make_random_triangles(const Vec3& center, double radius, double triangle_size, int count,
                                    std::uint64_t seed) {
   assert(count >= 0);
-  constexpr double kInnerSquared = 0.3;  // corners keep away from the centre, so slivers are few
+  constexpr double kInnerSquared = 0.3;  // corners keep away from the center, so slivers are few
   Uniform uniform(seed);
   std::vector<Vec3> positions;
   std::vector<IndexedTriangle> triangles;

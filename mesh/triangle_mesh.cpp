@@ -146,7 +146,7 @@ std::vector<Component> find_components(const std::vector<Edge>& edges, std::size
   return components;
 }
 
-/// Sum of tetrahedra over the centre of the component's bounds, which keeps the terms small far from the
+/// Sum of tetrahedra over the center of the component's bounds, which keeps the terms small far from the
 /// origin.
 double signed_volume(const Component& component, const std::vector<Vec3>& positions,
                      const std::vector<IndexedTriangle>& triangles) {

@@ -1,19 +1,19 @@
-// Step 0 of the pipeline: a half-edge triangle mesh.
+// Build: a half-edge triangle mesh from positions and triangles. The first step of the pipeline.
 //
-// In: spans of positions and of triangles (or polygons, see polygon_soup.h). Out: a mesh whose connectivity
-// is always a manifold (possibly with boundary), and a report of what had to be done to make it one.
+// In: spans of positions and of triangles (of polygons, see polygon_soup.h). Out: a mesh whose connectivity
+// is always a manifold, possibly with boundary, and a report of what had to be done to make it one.
 //
 // Connectivity is held in OpenMesh (Botsch et al., "OpenMesh: a generic and efficient polygon mesh data
-// structure", 2002), which accepts neither three faces at an edge nor two that run along it in the same
-// direction. No face is lost for that: such an edge is cut and its vertices are copied, one copy for each fan
-// of faces around them (the rule is in detail/manifold_pieces.h), so that it becomes several boundary edges
-// at the same place. Boundary edges belong to every silhouette band, which is what shadows ask of such edges.
-// Only where both sides of a cut end at the same two copies are they joined again: a closed surface with a
-// fin, or two that touch along an edge, stay closed. The result does not depend on the order of the faces but
-// for the numbering.
+// structure", 2002). OpenMesh accepts neither three faces at an edge nor two that run along it in the same
+// direction. No face is lost for that: such an edge is cut, and its vertices are copied, once for each fan of
+// faces around them (the rule is in mesh/manifold_pieces.h). So the edge becomes several boundary edges at
+// the same place. Boundary edges belong to every silhouette band, which is what shadows ask of such edges.
+// Where both sides of a cut end at the same two copies they are joined again: a closed surface with a fin
+// stays closed, and so do two that touch along an edge. But for the numbering, the result does not depend on
+// the order of the faces.
 //
-// Numbering: vertices keep the input's order and copies follow; faces keep the input's order; edges are
-// numbered as the faces first name them; components by their lowest face.
+// Numbering: vertices keep the order of the input, and copies follow. Faces keep the order of the input.
+// Edges are numbered as the faces first name them, components by their lowest face.
 #pragma once
 
 #include <memory>
@@ -24,59 +24,77 @@
 
 namespace penumbra {
 
-/// One undirected edge. Face `left`, which there always is, runs from → to; `right` (kNone at a boundary) to
-/// → from.
+/// One undirected edge.
 struct Edge {
   VertexId from, to;
+  /// `left` runs along the edge from `from` to `to`; there always is one. `right` runs from `to` to `from`;
+  /// it is kNone at a boundary.
   FaceId left, right;
-  VertexId left_apex, right_apex;  ///< the face's third vertex; right_apex is kNone at a boundary
+  /// The third vertex of either face; right_apex is kNone at a boundary.
+  VertexId left_apex, right_apex;
+
   bool is_boundary() const { return right == kNone<FaceId>; }
 };
 
-/// A connected set of faces (joined across edges of the built mesh).
+/// A set of faces that are connected across edges of the built mesh. Their orientation is consistent.
 struct Component {
   std::vector<FaceId> faces;
-  bool closed = false;         ///< no boundary edge; orientation is consistent in any case
-  double signed_volume = 0.0;  ///< scene units³; positive: outward; meaningful where closed
+  /// It has no boundary edge.
+  bool closed = false;
+  /// Scene units³, positive where the surface faces outward. Only meaningful where it is closed.
+  double signed_volume = 0.0;
 };
 
-/// What `TriangleMesh::build` did. Ids refer to the *input* triangles unless said otherwise.
+/// What `TriangleMesh::build` did. Numbers of triangles are those of the *input*.
 struct BuildReport {
-  std::size_t welded_vertices = 0;        ///< input vertices merged into another of exactly the same position
-  std::size_t unused_vertices = 0;        ///< of the rest, those that no kept face uses (left out)
-  std::size_t split_vertices = 0;         ///< copies added; vertices = input - welded - unused + split
-  std::vector<std::uint32_t> degenerate;  ///< triangles left out: fewer than three distinct positions
-  /// Kept: three distinct but collinear positions, as far as double can tell: cross product exactly zero.
+  /// Input vertices that were merged into another one of exactly the same position.
+  std::size_t welded_vertices = 0;
+  /// Of the rest, those that no kept face uses. They are left out.
+  std::size_t unused_vertices = 0;
+  /// Copies that were added: vertices = input - welded - unused + split.
+  std::size_t split_vertices = 0;
+  /// Triangles with fewer than three distinct positions. They are left out.
+  std::vector<std::uint32_t> degenerate;
+  /// Triangles with three distinct positions whose cross product in double is exactly zero. They are kept.
   std::vector<std::uint32_t> zero_area;
-  /// Kept: same three positions as an earlier triangle, in either orientation.
+  /// Triangles with the same three positions as an earlier one, in either orientation. They are kept.
   std::vector<std::uint32_t> duplicates;
-  std::size_t non_manifold_edges = 0;     ///< undirected edges (of welded positions) with more than two faces
-  std::size_t non_manifold_vertices = 0;  ///< vertices whose faces form more than one fan (split)
-  std::size_t misoriented_edges = 0;      ///< edges with exactly two faces that run the same way along them
-  std::size_t flipped_components = 0;     ///< closed components of negative volume, turned outward
-  std::size_t flipped_faces = 0;          ///< how many faces that were
+  /// Undirected edges of welded positions with more than two faces.
+  std::size_t non_manifold_edges = 0;
+  /// Vertices whose faces form more than one fan. They were split.
+  std::size_t non_manifold_vertices = 0;
+  /// Edges with exactly two faces, both of which run along them in the same direction.
+  std::size_t misoriented_edges = 0;
+  /// Closed components of negative volume, which were turned outward, and how many faces they have.
+  std::size_t flipped_components = 0;
+  std::size_t flipped_faces = 0;
 };
 
 struct BuildOptions {
-  bool weld = true;             ///< merge vertices of exactly equal position (+0 equals -0)
-  bool flip_inside_out = true;  ///< turn closed components of negative signed volume outward, cavities too
+  /// Merge vertices of exactly equal position (+0 equals -0).
+  bool weld = true;
+  /// Turn closed components of negative signed volume outward. Surfaces of cavities are turned, too.
+  bool flip_inside_out = true;
 };
 
+/// A box with sides parallel to the axes. Without points it is empty.
 struct Bounds {
   Vec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
   bool empty() const { return !(low.x <= high.x); }
   void add(const Vec3& p);
   void add(const Bounds& b);
   Vec3 center() const { return 0.5 * low + 0.5 * high; }
-  double radius() const;  ///< half the diagonal; 0 when empty
+  /// Half the diagonal; 0 when empty.
+  double radius() const;
 };
 
+/// A mesh that does not change. Copies are cheap: they share its data.
 class TriangleMesh {
  public:
-  TriangleMesh();  ///< empty
-  /// Builds the mesh. Throws MeshError for an index out of range or a coordinate that is not finite, in a
-  /// vertex that is used or not. Expected cost O(V + F log k), k faces at a vertex: about 0.6 s for a
-  /// million.
+  /// Without vertices and faces.
+  TriangleMesh();
+  /// Throws MeshError for an index out of range, and for a coordinate that is not finite, whether or not a
+  /// face uses it. Expected cost O(V + F log k), k faces at a vertex: about 0.6 s for a million faces.
   static TriangleMesh build(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles,
                             const BuildOptions& options = {});
 
@@ -91,14 +109,17 @@ class TriangleMesh {
   const BuildReport& report() const;
 
   const Vec3& position(VertexId v) const { return positions()[penumbra::index(v)]; }
-  const Bounds& bounds() const;  ///< of the positions
-  double longest_edge() const;   ///< its length in scene units, rounded (infinite on overflow); 0: no edge
+  /// Of the positions.
+  const Bounds& bounds() const;
+  /// The length of the longest edge in scene units, rounded; infinite on overflow, 0 without edges.
+  double longest_edge() const;
   bool empty() const { return triangles().empty(); }
-  bool is_closed() const;  ///< every component closed, and at least one face
+  /// Every component is closed, and there is at least one face.
+  bool is_closed() const;
 
  private:
   struct Data;
-  std::shared_ptr<const Data> data_;  ///< immutable: copies are cheap and share it
+  std::shared_ptr<const Data> data_;
 };
 
 Bounds bounds_of(std::span<const Vec3> positions);

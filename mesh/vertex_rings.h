@@ -1,4 +1,4 @@
-// Which edges meet at each vertex. Built once per mesh, since nothing in it depends on the light.
+// Which edges meet at each vertex. Nothing in it depends on the light, so one serves a mesh for good.
 #pragma once
 
 #include <span>

@@ -41,6 +41,7 @@ std::string join(const std::vector<std::string>& parts) {
 
 std::vector<std::string> texts(const std::vector<std::uint64_t>& values) {
   std::vector<std::string> out;
+  out.reserve(values.size());
   for (const std::uint64_t value : values) out.push_back(shortest(value));
   return out;
 }

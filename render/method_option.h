@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -45,9 +46,11 @@ struct OptionSchema {
   OptionDomain domain;
   OptionValue usual;
   /// Of numbers, such as "light radii"; empty for words and plain numbers.
-  std::string unit;
+  std::string unit{};
   /// One sentence: what the option decides.
   std::string help;
+  /// A value that costs less, for a picture while something moves; of a number: the most that it may then be.
+  std::optional<OptionValue> draft{};
 
   /// "4 to 1024 rows", "4, 8, 12 or 16", "auto, orthographic or a number above 0".
   std::string allowed() const;

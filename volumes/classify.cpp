@@ -11,6 +11,7 @@ namespace penumbra {
 
 namespace {
 
+// Speed: faces that one task classifies.
 constexpr std::size_t kFacesPerTask = 2048;
 constexpr std::size_t kBlock = detail::QuickClassifier::Block::kFaces;
 

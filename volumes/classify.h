@@ -1,7 +1,8 @@
-// Pipeline step 1: which faces look at the whole light, at none of it, or at a part.
+// Classify: which faces look at the whole light, at none of it, or at a part of it.
 //
-// In: mesh and light. Out: a class per face. "Umbra and penumbra volumes" (2004), section 2.1, with eq. 1
-// corrected: see predicates.h.
+// In: a mesh and a light. Out: a class per face. "Umbra and penumbra volumes" (2004), section 2.1, with eq. 1
+// corrected: its vector has the wrong sign and length. Here the class is a polynomial's sign, see
+// predicates.h.
 #pragma once
 
 #include <vector>
@@ -12,18 +13,21 @@
 
 namespace penumbra {
 
-/// Which tier of arithmetic decided, counted over faces.
+/// How many faces each tier of arithmetic decided.
 struct TierTally {
   std::size_t filter = 0, interval = 0, exact = 0;
 };
 
 struct Classification {
-  std::vector<FaceClass> faces;  ///< one per face of the mesh
+  /// One class per face of the mesh.
+  std::vector<FaceClass> faces;
+  /// How many faces have each class.
   std::size_t all_front = 0, mixed = 0, none_front = 0;
   TierTally tally;
 };
 
-/// Cost O(F), on all cores above some thousand faces. Deterministic.
+/// Classifies every face exactly. A face whose plane touches the disk is mixed, and so is one without area.
+/// Mesh and light are in the same frame. Deterministic, on all cores from some thousand faces on. Cost O(F).
 Classification classify_faces(const TriangleMesh& mesh, const DiskLight& light);
 
 }  // namespace penumbra

@@ -24,7 +24,11 @@ using detail::HalfSpaceCell;
 using detail::SolidKind;
 using detail::SolidShape;
 
-constexpr std::size_t kComponentsPerStep = 256;  // between two calls of progress
+// Between two calls of progress.
+constexpr std::size_t kComponentsPerStep = 256;
+// Accuracy: how far a kernel's corners are moved inward, as a fraction of the way to its middle. Far more
+// than they are rounded.
+constexpr double kInward = 0x1p-40;
 
 /// The half-spaces whose intersection is one body's umbra, and where each comes from.
 struct UmbraBounds {
@@ -37,8 +41,8 @@ struct UmbraBounds {
   }
 };
 
-/// Turns the plane through three points so that the average of `inside` is below it. False where it is not
-/// off the plane (as far as rounding can tell: the intersection decides exactly).
+/// Turns the plane through three points so that the average of `inside` is below it. False where rounding
+/// cannot tell that point from the plane; the intersection decides exactly.
 bool turn_outward(HalfSpace& h, const std::array<Vec3, 4>& inside) {
   const Vec3 normal = glm::cross(h[1] - h[0], h[2] - h[0]);
   double height = 0.0;
@@ -54,8 +58,8 @@ class UmbraOfBody {
               const Classification& classes, const detail::ShadowReach& reach)
       : mesh_(mesh), component_(component), light_(light), classes_(classes), reach_(reach) {}
 
-  /// Caps below faces that look at some of the disk; below edges between such a face and one that does not,
-  /// the plane that touches the disk; and a box beyond the bound.
+  /// A cap for each face that looks at some of the disk, the tangent plane of each edge between such a face
+  /// and one that does not, and a box beyond the bound.
   UmbraBounds bounds(const std::array<Vec3, 4>& inside) const {
     UmbraBounds result;
     for (const FaceId f : component_.faces) {
@@ -78,9 +82,9 @@ class UmbraOfBody {
   }
 
   /// A face that looks away has its third vertex on the disk's side of kFirst along its own direction of the
-  /// edge (predicates.h), and a convex body is on one side with it. Where the contact is rounded into the
-  /// edge's line, the face that looks away is itself the limit, and takes away too much rather than too
-  /// little.
+  /// edge (predicates.h). A convex body is on one side with it. Where rounding takes the contact onto the
+  /// edge's line, the plane of the face that looks away is taken: it is the limit, and takes away too much
+  /// rather than too little.
   HalfSpace tangent_half_space(const Edge& edge, const std::array<Vec3, 4>& inside) const {
     const bool left_away = looks_away(edge.left);
     const Vec3 &from = mesh_.position(edge.from), &to = mesh_.position(edge.to);
@@ -136,8 +140,7 @@ class UmbraExtruder {
       end = std::min(components.size(), begin + kComponentsPerStep);
       tbb::parallel_for(begin, end, [&](std::size_t i) { pieces[i] = umbra_of(components[i]); });
       for (std::size_t i = begin; i < end; ++i) exact = append(std::exchange(pieces[i], {})) && exact;
-      const double fraction = static_cast<double>(end) / static_cast<double>(components.size());
-      if (options_.progress && !options_.progress(fraction)) throw Cancelled();
+      report(options_.progress, static_cast<double>(end) / static_cast<double>(components.size()));
     }
     result_.guarantee = exact ? Guarantee::kExact : Guarantee::kContained;
     return std::move(result_);
@@ -189,10 +192,8 @@ class UmbraExtruder {
                        [&](const Vec3& p) { return side_of_light_plane(p, light_) == Sign::kPositive; });
   }
 
-  /// What is below all faces of a star-shaped component: convex and inside of it. Its corners are drawn
-  /// inward by far more than they are rounded.
+  /// What is below all faces of a star-shaped component: a convex body inside it.
   TriangleMesh kernel_of(const Component& component, const std::array<Vec3, 4>& inside) const {
-    constexpr double kInward = 0x1p-40;
     std::vector<HalfSpace> half_spaces;
     for (const FaceId f : component.faces) {
       const IndexedTriangle& t = mesh_.triangles()[index(f)];

@@ -5,34 +5,41 @@
 
 namespace penumbra {
 
-/// Nothing behind the light's plane casts, and nothing there is lit. The normal may have any length but 0:
-/// predicates use it as given, since dividing by its length would round. Radius 0 is a point light (with the
-/// same one-sidedness).
+/// Nothing behind the light's plane casts, and nothing there is lit. Radius 0 is a point light, which shines
+/// to one side only as well.
 struct DiskLight {
-  Vec3 center{0.0};  ///< scene units
+  /// Scene units.
+  Vec3 center{0.0};
+  /// Where it shines to. Of any length but 0: predicates use it as given, since dividing by its length would
+  /// round.
   Vec3 normal{0.0, -1.0, 0.0};
-  double radius = 0.0;  ///< scene units, ≥ 0
+  /// Scene units, at least 0.
+  double radius = 0.0;
 
-  bool operator==(const DiskLight&) const = default;  ///< number by number
+  bool operator==(const DiskLight&) const = default;
 };
 
-/// An orthonormal frame of the light: `w` along the normal; u × v = w. Deterministic in the normal's bits.
+/// An orthonormal frame of directions: w along the light's normal, and u × v = w. The same normal always
+/// gives the same frame.
 struct LightFrame {
   Vec3 u, v, w;
 };
 LightFrame light_frame(const DiskLight& light);
 
-/// The disk's points with the largest and the smallest N·p: center ± radius · N⊥/|N⊥|, N⊥ = N - (N·m)m, m the
-/// unit normal. Where N is parallel to m (or 0) every point is extreme and the center is returned for both.
-/// The pnear and pfar of "Umbra and penumbra volumes" (2004), eq. 1, with sign and length corrected.
+/// The points p of the disk with the largest and the smallest N·p: center ± radius · N⊥/|N⊥|, where N⊥ = N -
+/// (N·m)m and m is the light's unit normal. Where N is parallel to m, or 0, every point is extreme, and both
+/// are the center. They are pnear and pfar of "Umbra and penumbra volumes" (2004), eq. 1, with sign and
+/// length corrected. In plain double; classes are decided by predicates.h.
 struct ExtremePoints {
-  Vec3 near;  ///< the largest N·p: if the face does not look at this point, it looks at none
-  Vec3 far;   ///< the smallest N·p: if the face looks at this point, it looks at all
+  /// The largest N·p. A face that does not look at this point looks at none of the disk.
+  Vec3 near;
+  /// The smallest N·p. A face that looks at this point looks at all of the disk.
+  Vec3 far;
 };
 ExtremePoints extreme_points(const DiskLight& light, const Vec3& plane_normal);
 
-/// True where nothing of the light's front is seen: on or behind its plane, in plain double (images; topology
-/// asks side_of_light_plane in predicates.h).
+/// True on the light's plane and behind it, where nothing of the light's front is seen. In plain double, for
+/// images; topology asks side_of_light_plane of predicates.h.
 bool is_behind(const DiskLight& light, const Vec3& point);
 
 }  // namespace penumbra

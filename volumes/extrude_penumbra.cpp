@@ -15,8 +15,13 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::size_t kCellsPerStep = 512, kFacesPerStep = 2048;  // between two calls of progress
-constexpr double kChoosing = 0.5;                                 // its share of the time
+// Between two calls of progress.
+constexpr std::size_t kCellsPerStep = 512, kFacesPerStep = 2048;
+// The share of the time that choosing bodies takes, for progress.
+constexpr double kChoosing = 0.5;
+// Accuracy: how far behind the light's plane a face that crosses it is cut, as a fraction of the edge.
+// Rounding then takes nothing from the part in front.
+constexpr double kBehind = 1e-12;
 
 /// A convex body to be extruded: the hull of some vertices, or one face.
 struct Body {
@@ -47,7 +52,7 @@ class PenumbraExtruder {
       cells.assign(end - begin, {});
       tbb::parallel_for(begin, end, [&](std::size_t i) { cells[i - begin] = cell_of(bodies[i]); });
       for (std::size_t i = begin; i < end; ++i) append(cells[i - begin], bodies[i].source, result);
-      report(kChoosing + (1.0 - kChoosing) * share(end, bodies.size()));
+      report(options_.progress, kChoosing + (1.0 - kChoosing) * share(end, bodies.size()));
     }
     return result;
   }
@@ -69,7 +74,8 @@ class PenumbraExtruder {
     const auto report_some = [&](const detail::ConvexPatch& patch) {
       const std::size_t steps = patched / kFacesPerStep;
       patched += patch.faces.size();
-      if (patched / kFacesPerStep > steps) report(kChoosing * share(patched, mesh_.triangles().size()));
+      if (patched / kFacesPerStep > steps)
+        report(options_.progress, kChoosing * share(patched, mesh_.triangles().size()));
     };
     std::optional<detail::PatchFinder> finder;
     for (const Component& component : mesh_.components()) {
@@ -104,11 +110,11 @@ class PenumbraExtruder {
     }
   }
 
-  /// A solid in front of the light needs no cells for faces that look away from the whole disk. Let x be
-  /// shaded from p, a point of the disk outside of the solid. Going from x to p, the winding number of the
-  /// surface changes somewhere and is 0 in the end; so if it is not negative at x, it falls somewhere, and
-  /// where it falls the path leaves through a face that looks at p. The same path proves that the cells hold
-  /// the solid itself: from inside it falls too.
+  /// A solid in front of the light needs no cells for faces that look away from the whole disk. Proof: let x
+  /// be shaded from p, a point of the disk, which is outside the solid. On the way from x to p the winding
+  /// number of the surface changes somewhere, and in the end it is 0. It is not negative at x, so it falls
+  /// somewhere. Where it falls, the path leaves through a face that looks at p. From a point x inside the
+  /// solid it falls, too, so the cells hold the solid itself.
   bool casts(FaceId f, bool solid) const {
     if (solid && classes_.faces[index(f)] == FaceClass::kNoneFront) return false;
     const IndexedTriangle& t = triangle(f);
@@ -139,10 +145,8 @@ class PenumbraExtruder {
     return positions;
   }
 
-  /// The part of a face with depth ≥ 0. Where an edge crosses the light's plane the cut is made a hair behind
-  /// it.
+  /// The part of a face with depth ≥ 0, cut a hair behind the light's plane.
   std::vector<Vec3> corners_in_front(FaceId f) const {
-    constexpr double kBehind = 1e-12;
     const IndexedTriangle& t = triangle(f);
     std::vector<Vec3> corners;
     for (int i = 0; i < 3; ++i) {
@@ -175,9 +179,6 @@ class PenumbraExtruder {
 
   static double share(std::size_t part, std::size_t all) {
     return static_cast<double>(part) / static_cast<double>(all);
-  }
-  void report(double fraction) const {
-    if (options_.progress && !options_.progress(fraction)) throw Cancelled();
   }
 
   const TriangleMesh& mesh_;

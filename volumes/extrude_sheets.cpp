@@ -15,6 +15,9 @@ namespace penumbra {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
+// Accuracy: a ray that would have to be longer than this many times the way to its vertex to reach the far
+// plane ends outside the bound instead. Longer ones would lose too many digits.
+constexpr double kGreatestScale = 1e4;
 
 class SheetExtruder {
  public:
@@ -28,10 +31,10 @@ class SheetExtruder {
 
   ShadowMesh run() {
     for (const SupportFacet& facet : supports_.facets) add_facet(facet);
-    report(0.5);
+    report(options_.progress, 0.5);
     for (const ConeSector& cone : supports_.cones)
       if (cone.kind == SupportKind::kPenumbra && reach_.radius > 0.0) add_cone(cone);
-    report(1.0);
+    report(options_.progress, 1.0);
     return std::move(out_);
   }
 
@@ -112,7 +115,6 @@ class SheetExtruder {
   /// On the ray from p through the vertex, at the far plane; for rays that graze the light's plane, at least
   /// outside of the bound.
   std::uint32_t add_far_point(std::uint32_t vertex, const Vec3& p) {
-    constexpr double kGreatestScale = 1e4;
     const Vec3 ray = position(vertex) - p;
     const double depth = reach_.depth(position(vertex));
     const double scale = std::max(2.0, reach_.far_depth / depth);
@@ -130,10 +132,6 @@ class SheetExtruder {
     if (glm::dot(glm::cross(b - a, c - a), outward) < 0.0) std::swap(t[1], t[2]);
     out_.triangles.push_back(t);
     out_.tags.push_back(tag);
-  }
-
-  void report(double fraction) const {
-    if (options_.progress && !options_.progress(fraction)) throw Cancelled();
   }
 
   const TriangleMesh& mesh_;

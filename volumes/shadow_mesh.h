@@ -1,4 +1,4 @@
-// What extrusion produces: an indexed triangle mesh whose triangles say where they come from.
+// What extrusion makes: an indexed triangle mesh whose triangles say where they come from.
 #pragma once
 
 #include <cstdint>
@@ -12,45 +12,61 @@
 
 namespace penumbra {
 
+/// What a triangle is part of. Each kind has a source: an edge, a vertex or a face of the caster.
 enum class ShadowKind : std::uint8_t {
-  kPenumbraFacet,  ///< plane through an edge with caster and light on opposite sides; source: edge
-  kPenumbraCone,   ///< chorded or circumscribed cone at a vertex; source: vertex
-  kUmbraFacet,     ///< plane through an edge with caster and light on the same side; source: edge
-  kUmbraCap,       ///< part of a caster's face that bounds its umbra; source: face
-  /// Boundary of a penumbra cell, or of the umbra of a star-shaped component's kernel; source: the face, or
-  /// the first face of the component, it belongs to.
+  /// A plane through an edge, with caster and light on opposite sides. Source: the edge.
+  kPenumbraFacet,
+  /// A cone with its apex at a vertex, as a pyramid around it. Source: the vertex.
+  kPenumbraCone,
+  /// A plane through an edge, with caster and light on the same side. Source: the edge.
+  kUmbraFacet,
+  /// Part of a face of the caster that bounds its umbra. Source: the face.
+  kUmbraCap,
+  /// The boundary of a penumbra cell, or of the umbra of a star-shaped component's kernel. Source: the face
+  /// that it belongs to, or the first face of the patch or component.
   kCell,
-  kFarCap,  ///< where a volume is cut off beyond the scene's bound; source as for kCell
+  /// Where a volume is cut off beyond the bound. Source: as for kCell.
+  kFarCap,
 };
+/// As files have it: "penumbra_facet", "far_cap" and so on.
 const char* name_of(ShadowKind kind);
 
 struct ShadowTag {
   ShadowKind kind;
-  std::uint32_t source;      ///< edge, vertex or face index in the caster's mesh, by kind
-  std::uint32_t object = 0;  ///< scene index of the caster
+  /// The number of an edge, vertex or face of the caster's mesh; the kind tells which.
+  std::uint32_t source;
+  /// The caster's number in its scene.
+  std::uint32_t object = 0;
 };
 
-/// How an umbra volume relates to {O = 0}, or a penumbra volume to {O < 1}.
+/// How a volume relates to O, the fraction of the disk's area that a point sees.
 enum class Guarantee : std::uint8_t {
-  kExact,      ///< umbra: equal to {O = 0} of this caster, up to rounding
-  kContained,  ///< umbra: inside {O = 0}; perhaps empty
-  kContains,   ///< penumbra: {O < 1} is inside it
-  kNone,       ///< sheets: a set of facets, not a volume
+  /// An umbra: it is {O = 0} of this caster, but for rounding.
+  kExact,
+  /// An umbra: it lies inside {O = 0}. It may be empty.
+  kContained,
+  /// A penumbra: {O < 1} lies inside it.
+  kContains,
+  /// Sheets: facets that are no volume. Also what was not made.
+  kNone,
 };
+/// "exact", "contained", "contains" or "none".
 const char* name_of(Guarantee guarantee);
 
 struct ShadowMesh {
   std::vector<Vec3> positions;
-  std::vector<IndexedTriangle>
-      triangles;                ///< volumes: oriented outward, every half-edge matched by its opposite
-  std::vector<ShadowTag> tags;  ///< one per triangle
+  /// In a volume: oriented outward, and every half-edge is matched by its opposite.
+  std::vector<IndexedTriangle> triangles;
+  /// One per triangle.
+  std::vector<ShadowTag> tags;
   Guarantee guarantee = Guarantee::kNone;
-  std::size_t cells = 0;  ///< volumes: number of convex pieces
+  /// In a volume: of how many convex pieces it is the sum.
+  std::size_t cells = 0;
 };
 
-/// Joins meshes, keeping tags (object numbers must be set already). The guarantee is what holds of the union
-/// against the casters together: several umbras are `kContained` even if each is exact, penumbras stay
-/// `kContains`.
+/// Joins meshes. Tags are kept, so object numbers have to be set already. The guarantee is what holds of the
+/// union for all casters together: of several umbras it is kContained even if each is exact, of penumbra
+/// volumes it stays kContains, of a mixture it is kNone. Cost O(triangles).
 ShadowMesh merge(std::span<const ShadowMesh> parts);
 
 /// The extensions that write_shadow_mesh knows: lower case, with the dot.
@@ -58,10 +74,10 @@ std::vector<std::string_view> shadow_mesh_extensions();
 /// The formats' names in the same order, for help texts: "PLY or OBJ".
 std::string shadow_mesh_format_names();
 
-/// Writes the format that the extension names; PLY for the path "-", which is standard output. PLY is binary, little
-/// endian, in double, with the properties `kind`, `source` and `object` of each face. OBJ has a group for each object
-/// and kind. The file is written whole or not at all. Throws UsageError for another extension, SystemError where
-/// writing fails. Cost O(triangles).
+/// Writes the format that the extension names; PLY for the path "-", which is standard output. PLY is binary,
+/// little endian, in double, with the properties `kind`, `source` and `object` of each face. OBJ has a group
+/// for each object and kind. The file is written whole or not at all. Throws UsageError for another
+/// extension, SystemError where writing fails. Cost O(triangles).
 void write_shadow_mesh(const std::filesystem::path& path, const ShadowMesh& mesh);
 
 }  // namespace penumbra

@@ -25,9 +25,14 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Rounding in `SideOfPlane`, so that coplanar neighbours count as lying on the plane: the sine of an
-/// elevation.
+// Accuracy; held by supports_test.cpp.
+
+/// A point this little off a plane, as the sine of an angle, counts as lying on it. So coplanar neighbors do,
+/// in spite of rounding.
 constexpr double kOnPlane = 1e-11;
+/// Radians. Where the boundary would turn further at a vertex, the two facet ends belong to different parts
+/// of the contour (the far sides of a saddle).
+constexpr double kSharpestTurn = 0.7 * kPi;
 
 struct SideOfPlane {
   double a, b, c;
@@ -44,8 +49,6 @@ struct SideOfPlane {
     return a * direction.x + b * direction.y + c < -kOnPlane * size;
   }
 };
-
-constexpr double kSharpestTurn = 0.7 * kPi;
 
 /// Grows with the angle of (x, y) from -kHalfTurn to kHalfTurn, opposite directions differ by kHalfTurn, and
 /// no transcendental function is called.
@@ -169,9 +172,7 @@ class CornerFinder {
     return ends;
   }
 
-  /// Facets that arrive at the vertex go on with facets that leave it, the smallest turns first. Beyond
-  /// kSharpestTurn two ends belong to different parts of the contour (the far sides of a saddle), not to one
-  /// corner.
+  /// Facets that arrive at the vertex go on with facets that leave it, the smallest turns first.
   void link_ends(std::span<const FacetEnd> ends, Scratch& scratch) {
     auto& links = scratch.links;
     links.clear();
@@ -217,7 +218,7 @@ class CornerFinder {
     }
   }
 
-  /// All neighbours lie beyond the center's tangent plane at the angle: nothing of the star hides the disk's
+  /// All neighbors lie beyond the center's tangent plane at the angle: nothing of the star hides the disk's
   /// first point.
   bool ring_is_beyond(const Star& star, double angle) const {
     const glm::dvec2 direction(std::cos(angle), std::sin(angle));

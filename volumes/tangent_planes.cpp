@@ -37,9 +37,9 @@ struct Normal2 {
   double alpha, beta;
 };
 
-/// Both roots of q(α, β) = q00 α² + 2 q01 αβ + q11 β² = (n·w)² - r²|m × n|², each in the form without
-/// cancellation:
-/// (-q01 ± √-det, q00) and (q11, -q01 ∓ √-det) are parallel. In this basis -det = r²(w1² + slope²(w2² - r²)).
+/// Both roots of q(α, β) = q00 α² + 2 q01 αβ + q11 β² = (n·w)² - r²|m × n|². Each is (-q01 ± √-det, q00),
+/// which is parallel to (q11, -q01 ∓ √-det): of the two the one without cancellation is taken. In this basis
+/// -det = r²(w1² + slope²(w2² - r²)).
 std::array<Normal2, 2> tangent_normals(const EdgeView& v) {
   const double half_axis = v.radius * v.slope;
   const double q00 = (v.w1 - half_axis) * (v.w1 + half_axis), q01 = v.w1 * v.w2;
@@ -81,8 +81,7 @@ std::optional<std::array<TangentPlane, 2>> tangent_planes(const Vec3& v1, const 
   if (turn_from_contact(view, roots[0]) < turn_from_contact(view, roots[1])) std::swap(roots[0], roots[1]);
 
   // 2. Where both are the plane through the whole disk (a point light, or an edge in the light's plane), as
-  // in the limit:
-  //    the first normal is to the left of the center, the second to the right.
+  //    in the limit: the first normal is to the left of the center, the second to the right.
   const bool in_light_plane = view.slope == 0.0 && view.w1 == 0.0;
   if (light.radius == 0.0) {
     const double length = std::hypot(view.w1, view.w2);

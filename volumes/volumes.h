@@ -28,8 +28,8 @@ struct VolumeOptions {
   bool penumbra = true;
   /// A volume inside {O = 0}, see convex_umbra. Exact arithmetic: the slowest step.
   bool umbra = true;
-  /// How far the volumes reach, how finely cones are divided, the object's number in the tags, and the progress
-  /// of the whole call.
+  /// How far the volumes reach, how finely cones are divided, the object's number in the tags, and the
+  /// progress of the whole call.
   ExtrudeOptions extrude{};
 };
 
@@ -44,11 +44,12 @@ struct ShadowVolumes {
   std::vector<StageTime> stages;
 };
 
-/// Classifies the caster's faces, finds its silhouettes, and extrudes what `options` asks for. Mesh and light are
-/// in the same frame, which is that of the results. Deterministic, on all cores.
+/// Classifies the caster's faces, finds its silhouettes, and extrudes what `options` asks for. Mesh and light
+/// are in the same frame, which is that of the results. Deterministic, on all cores.
 ///
 /// Throws MeshError for an empty mesh; UsageError for a light that require_valid refuses, or options outside
-/// their domain (whether or not something is extruded); Cancelled. Cost O(F + E), and that of what is extruded.
+/// their domain (whether or not something is extruded); Cancelled. Cost O(F + E), and that of what is
+/// extruded.
 ShadowVolumes build_shadow_volumes(const TriangleMesh& mesh, const DiskLight& light,
                                    const VolumeOptions& options = {});
 

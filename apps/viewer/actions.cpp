@@ -45,11 +45,11 @@ std::string copy_command(const ActionInput& input) {
 
 }  // namespace
 
-Method next_method(Method method, int step) {
-  const std::vector<std::string> names = method_names();
-  const auto count = static_cast<std::ptrdiff_t>(names.size());
-  const auto at = std::find(names.begin(), names.end(), name_of(method)) - names.begin();
-  return method_of(names[static_cast<std::size_t>((at + step + count) % count)]);
+std::string next_method(const std::string& method, int step) {
+  const std::deque<MethodInfo>& all = methods();
+  const auto count = static_cast<std::ptrdiff_t>(all.size());
+  const auto at = std::ranges::find(all, method, &MethodInfo::name) - all.begin();
+  return all[static_cast<std::size_t>((at + step + count) % count)].name;
 }
 
 std::string perform(Command command, const ActionInput& input) {

@@ -11,7 +11,7 @@
 namespace penumbra::viewer {
 
 /// The method `step` places further in the list, around its end.
-Method next_method(Method method, int step);
+std::string next_method(const std::string& method, int step);
 
 struct ActionInput {
   const State& state;

@@ -52,16 +52,17 @@ bool combo(const char* label, std::string& value, const std::vector<std::string>
   return changed;
 }
 
-// One setting as a combo or a number; the command line decides whether a value is accepted.
-void setting_widget(RenderOptions& options, const Setting& setting, int& revision) {
-  std::string value = setting.value;
-  const bool changed = setting.words.empty() ? ImGui::InputText(setting.name.c_str(), &value,
-                                                                ImGuiInputTextFlags_EnterReturnsTrue)
-                                             : combo(setting.name.c_str(), value, setting.words);
-  help_on_hover(setting.help + (setting.words.empty() ? " (Enter applies)" : ""));
+// One setting as a combo or a number; its schema decides whether a value is accepted.
+void setting_widget(RenderOptions& options, const OptionSchema& option, int& revision) {
+  std::string value = value_of(options, option);
+  const std::vector<std::string> choices = choices_of(option);
+  const bool changed =
+      choices.empty() ? ImGui::InputText(option.name.c_str(), &value, ImGuiInputTextFlags_EnterReturnsTrue)
+                      : combo(option.name.c_str(), value, choices);
+  help_on_hover(option.help + " (" + option.allowed() + (choices.empty() ? "; Enter applies)" : ")"));
   if (!changed) return;
   try {
-    set(options, setting.name, value);
+    set(options, option.name, value);
     ++revision;
   } catch (const UsageError&) {  // the field shows the old value again
   }
@@ -69,15 +70,18 @@ void setting_widget(RenderOptions& options, const Setting& setting, int& revisio
 
 void method_widgets(const char* label, RenderOptions& options, int& revision, Places& places) {
   ImGui::PushID(label);
-  std::string method = name_of(options.method);
-  const bool changed = combo(label, method, method_names());
+  std::vector<std::string> names;
+  for (const MethodInfo& method : methods()) names.push_back(method.name);
+  std::string method = options.method;
+  const bool changed = combo(label, method, names);
   note_place(places, label);
+  help_on_hover(method_named(options.method).summary);
   if (changed) {
-    options.method = method_of(method);
+    options.method = method;
     ++revision;
   }
-  for (const Setting& each : settings_of(options))
-    if (!each.method.empty()) setting_widget(options, each, revision);
+  for (const OptionSchema& option : method_named(options.method).options)
+    setting_widget(options, option, revision);
   ImGui::PopID();
 }
 
@@ -133,21 +137,37 @@ void tilt_sliders(DiskLight& light, Places& places) {
                   level * std::cos(turn / kDegrees)};
 }
 
+// Which of several lights is edited.
+void light_choice(State& state, Places& places) {
+  if (state.lights.size() < 2) return;
+  std::vector<std::string> names;
+  for (const Light& light : state.lights) names.push_back(light.name);
+  std::string chosen = names[state.selected];
+  if (combo("light", chosen, names))
+    state.selected = static_cast<std::size_t>(std::find(names.begin(), names.end(), chosen) - names.begin());
+  note_place(places, "light choice");
+}
+
 void light_section(State& state, Places& places) {
   if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  light_choice(state, places);
   const Bounds bounds =
       state.model->caster_bounds().empty() ? state.model->bounds() : state.model->caster_bounds();
   const double size = std::max(bounds.radius(), 1e-6);
   const Vec3 middle = bounds.center();
-  slider(places, "x", state.light.center.x, middle.x - 6.0 * size, middle.x + 6.0 * size, "%.3f units");
-  slider(places, "y", state.light.center.y, middle.y - 6.0 * size, middle.y + 6.0 * size, "%.3f units");
-  slider(places, "z", state.light.center.z, middle.z - 6.0 * size, middle.z + 6.0 * size, "%.3f units");
-  tilt_sliders(state.light, places);
-  slider(places, "radius", state.light.radius, 0.0, 2.0 * size, "%.3f units");
-  double brightest = std::max({state.radiance.x, state.radiance.y, state.radiance.z});
-  const Vec3 hue = brightest > 0.0 ? state.radiance / brightest : Vec3(1.0);
+  DiskLight light = state.light();
+  const DiskLight before = light;
+  slider(places, "x", light.center.x, middle.x - 6.0 * size, middle.x + 6.0 * size, "%.3f units");
+  slider(places, "y", light.center.y, middle.y - 6.0 * size, middle.y + 6.0 * size, "%.3f units");
+  slider(places, "z", light.center.z, middle.z - 6.0 * size, middle.z + 6.0 * size, "%.3f units");
+  tilt_sliders(light, places);
+  slider(places, "radius", light.radius, 0.0, 2.0 * size, "%.3f units");
+  if (light != before) state.set_light(light);
+  Vec3& radiance = state.lights[state.selected].radiance;
+  double brightest = std::max({radiance.x, radiance.y, radiance.z});
+  const Vec3 hue = brightest > 0.0 ? radiance / brightest : Vec3(1.0);
   if (slider(places, "radiance", brightest, 0.01, 1000.0, "%.3g W/(m2 sr)", ImGuiSliderFlags_Logarithmic))
-    state.radiance = hue * brightest;
+    radiance = hue * brightest;
 }
 
 void overlay_box(const char* label, Command command, bool& flag, Places& places) {
@@ -205,12 +225,13 @@ void stage_bars(const RenderResult& result) {
 
 void side_costs(const Side& side) {
   const RenderResult& result = *side.result;
-  ImGui::Text("%s %dx%d: %.1f ms", name_of(side.options.method), result.image.width, result.image.height,
+  ImGui::Text("%s %dx%d: %.1f ms", side.options.method.c_str(), result.image.width, result.image.height,
               result.frame_ms);
   stage_bars(result);
   std::string counts;
-  for (const auto& [name, value] : result.stats["counts"].items())
-    counts += (counts.empty() ? "" : ", ") + name + " " + value.dump();
+  for (const MethodFrame& frame : result.lights)
+    for (const Count& count : frame.counts)
+      counts += (counts.empty() ? "" : ", ") + count.name + " " + to_text(count.value);
   ImGui::TextWrapped("%s", counts.c_str());
 }
 

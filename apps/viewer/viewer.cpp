@@ -24,6 +24,7 @@
 #include "apps/viewer/work/exports.h"
 #include "apps/viewer/work/wishes.h"
 #include "penumbra/mesh/error.h"
+#include "render/gl/context.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -238,14 +239,13 @@ void Viewer::obey_view(Command command) {
     case Command::kFrameAll:
     case Command::kFrameLight: {
       Bounds bounds = state_.model->caster_bounds();
-      if (command == Command::kFrameLight) bounds.add(state_.light.center);
+      if (command == Command::kFrameLight) bounds.add(state_.light().center);
       state_.camera = framed(state_.camera, bounds, width, height);
       break;
     }
     case Command::kReset:
       state_.camera = state_.model->camera;
-      state_.light = state_.model->light;
-      state_.radiance = state_.model->radiance;
+      state_.lights = state_.model->lights;
       break;
     default:
       break;

@@ -26,8 +26,7 @@ Examples:
 H in the window lists the keys. Exit codes: 0 fine, 1 failed (no display, say), 2 bad usage, 3 bad mesh or scene.)";
 
 struct Words {
-  std::string size, method = name_of(RenderOptions{}.method), against = "reference", view = "single",
-                    shown = "picture";
+  std::string size, method = kDefaultMethod, against = "reference", view = "single", shown = "picture";
   std::vector<std::string> overlays;
 };
 
@@ -62,7 +61,8 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
       ->required();
   app.add_option("--size", words.size, "Pixels of the picture, WIDTHxHEIGHT; the panel is beside it")
       ->type_name("WxH");
-  app.add_option("-m,--method", words.method, "How visibility is computed")->capture_default_str();
+  app.add_option("-m,--method", words.method, "How visibility is computed: " + apps::method_words())
+      ->capture_default_str();
   app.add_option("--view", words.view, "single, split or difference")->capture_default_str();
   app.add_option("--against", words.against, "The second method of split and difference")
       ->capture_default_str();
@@ -90,7 +90,7 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
   app.add_option("--random-input", options.random_input)->group("");
   app.add_option("--seconds", options.seconds)->group("");
   app.add_option("--drop", options.drop)->group("");
-  apps::add_method_options(app, options.state.left);
+  apps::add_method_options(app, options.state.left.options);
 }
 
 void check(ViewerOptions& options, const Words& words, bool method_given, bool view_given) {
@@ -99,8 +99,8 @@ void check(ViewerOptions& options, const Words& words, bool method_given, bool v
     options.width = size.x;
     options.height = size.y;
   }
-  options.state.left.method = method_of(words.method);
-  options.state.right.method = method_of(words.against);
+  options.state.left.method = method_named(words.method).name;
+  options.state.right.method = method_named(words.against).name;
   options.state.arrangement = arrangement_of(words.view);
   options.state.shown = shown_of(words.shown);
   for (const std::string& word : words.overlays) overlay_of(word, options.state.overlays) = true;
@@ -134,6 +134,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int run_viewer(int argc, char** argv) {
+  register_drawing_methods();
   CLI::App app(kDescription, "penumbra-viewer");
   app.set_version_flag("--version", "penumbra-viewer " PENUMBRA_VERSION);
   app.footer(kFooter);

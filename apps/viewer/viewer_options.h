@@ -13,9 +13,9 @@ namespace penumbra::viewer {
 
 struct ViewerOptions {
   std::vector<std::filesystem::path> files;
-  int width = 960, height = 600;  ///< of the picture; the panel is beside it
-  State state;                    ///< methods and settings to start with
-  std::optional<Method> method;   ///< where given, instead of what a saved state says
+  int width = 960, height = 600;      ///< of the picture; the panel is beside it
+  State state;                        ///< methods and settings to start with
+  std::optional<std::string> method;  ///< where given, instead of what a saved state says
   std::optional<Arrangement> view;
   bool plain = false;  ///< neither panel nor handles
   std::filesystem::path screenshot;

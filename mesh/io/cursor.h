@@ -1,5 +1,5 @@
-// Reading hostile text and bytes: cursors that never leave their buffer and say where they are when something
-// is wrong. Every failure is a MeshError of one line: "file: line 12: what; what to do".
+// Cursors over text and bytes that nobody vouches for. They never leave their buffer, and say where they are
+// when something is wrong. Every failure is a MeshError of one line: "file: line 12: what; what to do".
 #pragma once
 
 #include <algorithm>

@@ -31,8 +31,8 @@ struct MeshFormat {
 
 std::span<const MeshFormat> mesh_formats();
 
-/// The format that a file is in: by a magic that decides, then by extension, then by any magic, then by size. Throws
-/// MeshError where none fits.
+/// The format that a file is in: by a magic that decides, then by extension, then by any magic, then by size.
+/// Throws MeshError where none fits.
 const MeshFormat& recognize_format(std::span<const std::byte> bytes, const std::string& name);
 
 /// The format to write to a path: by extension; the first of the table for "-". Throws UsageError for another
@@ -51,8 +51,8 @@ void write_ply(std::ostream& out, const TriangleMesh& mesh);
 PolygonSoup read_obj(std::span<const std::byte> bytes, const std::string& name);
 void write_obj(std::ostream& out, const TriangleMesh& mesh);
 
-/// True for OFF, COFF, NOFF, STOFF and their combinations; also for the variants that read_off refuses by name
-/// (4OFF, nOFF).
+/// True for OFF, COFF, NOFF, STOFF and their combinations; also for the variants that read_off refuses by
+/// name (4OFF, nOFF).
 bool begins_like_off(std::span<const std::byte> bytes);
 PolygonSoup read_off(std::span<const std::byte> bytes, const std::string& name);
 void write_off(std::ostream& out, const TriangleMesh& mesh);

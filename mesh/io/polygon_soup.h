@@ -1,12 +1,13 @@
-// Reading and writing mesh files: PLY (ASCII, binary of either byte order), OBJ, OFF (text) and STL (ASCII, binary).
+// Reading and writing mesh files: PLY (ASCII, binary of either byte order), OBJ, OFF (text) and STL (ASCII,
+// binary).
 //
-// In: a path or bytes. Out: positions in double and polygons as lists of indices, exactly as the file has them;
-// `triangulate` makes triangles of them. Nothing in a file is trusted: counts are checked against its size before
-// memory is reserved, every index is checked, every coordinate must be finite. Normals, colors, texture coordinates
-// and all that is not vertices and faces are skipped.
+// In: a path or bytes. Out: positions in double and polygons as lists of indices, exactly as the file has
+// them; `triangulate` makes triangles of them. Nothing in a file is trusted: counts are checked against its
+// size before memory is reserved, every index is checked, every coordinate must be finite. Normals, colors,
+// texture coordinates and all that is not vertices and faces are skipped.
 //
-// The readers are our own: OpenMesh's read single precision only and trust the counts that they find, and a bad file
-// must give a clear message.
+// The readers are our own: OpenMesh's read single precision only and trust the counts that they find, and a
+// bad file must give a clear message.
 #pragma once
 
 #include <filesystem>
@@ -36,9 +37,9 @@ std::vector<std::string_view> mesh_extensions();
 /// The formats' names in the same order, for help texts and messages: "PLY, OBJ, OFF or STL".
 std::string mesh_format_names();
 
-/// Reads a file. A file that begins as PLY does is PLY; otherwise its extension names the format; otherwise its
-/// content does. Throws MeshError, with line or byte, where the file is missing, no regular file, empty, truncated,
-/// malformed, in no known format, or without faces. Cost O(bytes).
+/// Reads a file. A file that begins as PLY does is PLY; otherwise its extension names the format; otherwise
+/// its content does. Throws MeshError, with line or byte, where the file is missing, no regular file, empty,
+/// truncated, malformed, in no known format, or without faces. Cost O(bytes).
 PolygonSoup read_polygon_soup(const std::filesystem::path& path);
 /// The same from memory. `name` stands in messages, and its extension counts as a file's does.
 PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name);
@@ -52,17 +53,18 @@ struct Triangulation {
   /// Polygons with fewer than three corners. They are left out.
   std::size_t skipped_polygons = 0;
 };
-/// Divides each polygon into the triangles between its first corner and the sides that do not meet it. Cost O(corners).
+/// Divides each polygon into the triangles between its first corner and the sides that do not meet it. Cost
+/// O(corners).
 Triangulation triangulate(const PolygonSoup& soup);
 
-/// read_polygon_soup, triangulate and TriangleMesh::build in one. Throws MeshError as they do, and where no face is
-/// left.
+/// read_polygon_soup, triangulate and TriangleMesh::build in one. Throws MeshError as they do, and where no
+/// face is left.
 TriangleMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options = {});
 
-/// Writes a file whose format its extension names; PLY for the path "-", which is standard output. PLY is binary, little
-/// endian, in double. OBJ and OFF have the shortest decimals that read back exactly. STL is binary, in float: it loses
-/// precision and shared vertices. The file is written whole or not at all. Throws UsageError (unknown extension, a
-/// coordinate beyond the range of STL) and SystemError.
+/// Writes a file whose format its extension names; PLY for the path "-", which is standard output. PLY is
+/// binary, little endian, in double. OBJ and OFF have the shortest decimals that read back exactly. STL is
+/// binary, in float: it loses precision and shared vertices. The file is written whole or not at all. Throws
+/// UsageError (unknown extension, a coordinate beyond the range of STL) and SystemError.
 void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace penumbra

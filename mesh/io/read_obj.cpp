@@ -16,7 +16,7 @@ void read_vertex(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
           "correct that line");
     }
   }
-  soup.add_vertex(p);  // w and colours may follow
+  soup.add_vertex(p);  // w and colors may follow
 }
 
 void read_face(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {

@@ -1,5 +1,5 @@
 // Object File Format (Geomview): OFF, COFF, NOFF, STOFF and combinations, or no header word at all in a file
-// named .off. Each vertex and each face ends its line: normals, colours and texture coordinates after them
+// named .off. Each vertex and each face ends its line: normals, colors and texture coordinates after them
 // are skipped.
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"

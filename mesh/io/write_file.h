@@ -7,10 +7,10 @@
 
 namespace penumbra {
 
-/// Opens a temporary beside `path`, calls `write` with it, flushes and renames it to `path`; an existing file
-/// keeps its permissions, and a link goes on naming it. On any failure the temporary is removed and
-/// SystemError says what could not be written and why; what `write` itself throws passes through. The path
-/// "-" writes to standard output. An existing special file (/dev/null, a pipe) is written to directly.
+/// Opens a temporary file beside `path`, calls `write` with it, flushes it and renames it to `path`. A file
+/// that is there keeps its permissions; a link goes on naming it. The path "-" is standard output. A special
+/// file that is there (/dev/null, a pipe) is written to directly. Where something fails the temporary file is
+/// removed. Throws SystemError, which says what could not be written and why, and whatever `write` throws.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
 }  // namespace penumbra

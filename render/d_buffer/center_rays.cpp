@@ -16,7 +16,7 @@
 
 namespace penumbra {
 
-/// Sixteen receivers, local frame.
+/// Sixteen receivers, in the frame of the rays.
 struct detail::ReceiverLanes {
   const float *x, *y, *z, *nx, *ny, *nz;
 };
@@ -27,7 +27,8 @@ using detail::RayPacket;
 using detail::ReceiverLanes;
 
 constexpr std::size_t kLanes = RayPacket::kRays;
-constexpr int kBlock = 4;  // pixels a side that share a packet
+/// Speed: pixels a side of a block whose rays share a packet (d_buffer_bench).
+constexpr int kBlock = 4;
 
 struct LocalDisk {
   float x, y, z;     ///< center
@@ -42,12 +43,16 @@ LocalDisk local_disk(const DiskLight& light, const RayFrame& frame) {
 
 /// The disk as a receiver's horizon lies across it.
 struct AboveHorizon {
-  float x, y, z;     ///< from the receiver to the center
-  float ux, uy, uz;  ///< up the disk: the receiver's normal without its part along the light's
-  float size;        ///< of that
-  float height;      ///< of the center above the horizon
-  float before;      ///< the light's plane, so far
-  bool behind;       ///< the light, or in its plane: the surface, not the ray's origin
+  /// From the receiver to the disk's center.
+  float x, y, z;
+  /// Up the disk: the receiver's normal without its part along the light's. And its length.
+  float ux, uy, uz, size;
+  /// Of the disk's center above the horizon.
+  float height;
+  /// How far the ray's origin is in front of the light's plane.
+  float before;
+  /// The surface point (not the ray's origin) lies behind the light's plane or in it.
+  bool behind;
 };
 
 PENUMBRA_INLINE AboveHorizon above_horizon_of(const ReceiverLanes& from, std::size_t k,

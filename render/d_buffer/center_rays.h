@@ -1,7 +1,7 @@
-// Whether each receiver sees the light's center, by rays, and what a few more say of a penumbra.
+// D-buffer steps 1 and 8: rays from surface points to the light's center, and to sixteen points of the disk.
 //
-// In: surface points (once), a light. Out: a number a pixel. The shadow's whole topology hangs on it (see
-// d_buffer.h), and a ray decides it for the receiver itself, where a shadow map decides it for a texel.
+// In: surface points (once per camera), a light. Out: a number a pixel. Which entries a receiver reads depends on whether
+// it sees the light's center. The 2004 paper decides that for a texel, by a shadow map; a ray decides it for the receiver.
 #pragma once
 
 #include <cstdint>
@@ -21,31 +21,34 @@ class CenterRays {
  public:
   /// Copies what it needs of `surface`; `rays` must outlive it.
   CenterRays(const Receivers& surface, const RayScene& rays);
-  /// Into `out` one per pixel of the surface buffer: 1 where nothing lies between it and the disk's center,
-  /// else 0. Where the center is below the receiver's horizon and part of the disk is above it, the middle of
-  /// that part's extent takes its place. Points behind the light and such that see nothing of it count as
-  /// open. Cost: one ray a pixel, on all cores.
+  /// Writes one number per pixel to `out`: 0 where a caster lies between the surface point and the disk's center, else 1.
+  /// If the center is below the point's horizon but part of the disk is above it, the middle of that part takes the
+  /// center's place. 1 behind the light, and where all of the disk is below the horizon. Cost: one ray a pixel, on all
+  /// cores.
   void center_seen(const DiskLight& light, std::vector<float>& out) const;
-  /// Visibility of each of the given pixels, all of which see a surface: the disk's fraction above the
-  /// horizon, times the share that is seen of sixteen points of equal shares of the disk (of those above).
-  /// Nine patterns of points alternate over three by three pixels (interleaved sampling, Keller and Heidrich
-  /// 2001). Where one edge crosses the disk, one pattern errs by .037 (root mean square over all chords; at
-  /// worst by .14), the mean of the nine by .007. Cost: sixteen rays a pixel, on all cores.
+  /// Visibility of each of the given pixels, all of which see a surface. It is the disk's fraction above the horizon, times
+  /// the part that is seen of sixteen points on the disk, those below the horizon left out. Nine patterns of points
+  /// alternate over three by three pixels (interleaved sampling, A. Keller and W. Heidrich 2001). Where one edge crosses
+  /// the disk, the root mean square error over all chords is .037 for one pattern (at most .14) and .007 for the mean of
+  /// nine. Cost: sixteen rays a pixel, on all cores.
   std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
-  /// Into `out` one per pixel: the disk's area fraction above the receiver's horizon, 0 behind the light, 1
-  /// where nothing is seen.
+  /// Writes one number per pixel to `out`: the disk's area fraction above the point's horizon, 0 behind the light, 1 where
+  /// nothing is seen. Cost O(pixels), on all cores.
   void above_horizon(const DiskLight& light, std::vector<float>& out) const;
 
  private:
   detail::ReceiverLanes lanes(std::size_t first) const;
 
   const RayScene& rays_;
-  std::size_t pixels_;                ///< of the surface buffer
-  std::uint32_t width_;               ///< of the surface buffer
-  std::vector<std::uint32_t> pixel_;  ///< that see a surface, in blocks
-  std::vector<std::uint32_t> place_;  ///< of each pixel in pixel_
-  std::vector<float> x_, y_, z_, nx_, ny_,
-      nz_;  ///< ray origins and normals, local frame, padded to whole packets
+  /// Of the image.
+  std::size_t pixels_;
+  std::uint32_t width_;
+  /// The pixels that see a surface, block by block, so that the rays of a packet run alike.
+  std::vector<std::uint32_t> pixel_;
+  /// Of each pixel its place in pixel_.
+  std::vector<std::uint32_t> place_;
+  /// Origins of rays in the frame of the rays, and normals; padded to whole packets.
+  std::vector<float> x_, y_, z_, nx_, ny_, nz_;
 };
 
 }  // namespace penumbra

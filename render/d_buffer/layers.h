@@ -1,4 +1,7 @@
-// The D-buffer's textures.
+// The textures of a D-buffer: what every texel of every target keeps.
+//
+// "Umbra and penumbra volumes" (2004), section 3.1, with an edge in place of distances. Depths are near / distance along
+// the target's axis, which is linear on planes: 0 is infinitely far away, 1 is nearest.
 #pragma once
 
 #include "render/gl/program.h"
@@ -17,7 +20,8 @@ struct Layers {
   gl::Object texture;
 };
 
-/// A number and a depth a texel: the occluder's face, or an entry.
+/// A number and a depth a texel. The number is 1 + that of a face or of a facet (0: none), or, of entries with
+/// DBufferContents::kDistances, the bits of the 1/z of the edge.
 struct Layer {
   Layer(const gl::Functions& gl, int size, int count)
       : id(gl, GL_R32UI, size, count), depth(gl, GL_DEPTH_COMPONENT32F, size, count) {}
@@ -44,11 +48,16 @@ struct DBufferLayers {
   /// The layer of `first_entries` and `second_entries` for one kind and target.
   int layer_of(EntryKind kind, int target) const { return static_cast<int>(kind) * count + target; }
 
+  /// Texels a side, targets, entries kept per texel and kind.
   int size, count, entries;
-  Layer occluder;  ///< the first surface that the light's center sees
-  Layers last;     ///< depth of the last surface that faces it
+  /// The first surface that the light's center sees.
+  Layer occluder;
+  /// Depth of the last surface that faces the light's center.
+  Layers last;
+  /// The nearest entries (or the furthest, as Conflict says).
   Layer first_entries;
-  Layer second_entries;  ///< where only one is kept: a single texel that is never read
+  /// The second nearest. Where only one is kept, a single texel that is never read.
+  Layer second_entries;
 
   std::size_t bytes() const {
     const auto texels =

@@ -42,7 +42,7 @@ constexpr int kProbesInShadow = 8, kProbesInLight = 16;
 
 constexpr float kNoSample = -1.0f;
 
-/// Without a branch in the loop, so that it vectorises.
+/// Without a branch in the loop, so that it vectorizes.
 PENUMBRA_VECTOR_CLONES
 bool any_apart(const float* a, const float* b, std::uint32_t count) {
   int any = 0;

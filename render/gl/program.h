@@ -13,7 +13,7 @@ namespace penumbra::gl {
 /// A linked program. Shader files may name others by a line `#include "name.glsl"` (one level).
 class Program {
  public:
-  /// What the stages find defined, `#define name value`. Software rasterisers run both sides of every branch,
+  /// What the stages find defined, `#define name value`. Software rasterizers run both sides of every branch,
   /// so what is the same for a whole draw call is better a definition than a uniform.
   struct Definition {
     std::string_view name;
@@ -21,8 +21,10 @@ class Program {
   };
   struct Stage {
     GLenum type;
-    std::string_view file;       ///< in render/shaders; only a name for messages where there is a text
-    std::string_view text = {};  ///< the source itself, instead of the file's
+    /// Name of an embedded file (shaders.h), without its folder. With a text only a name for messages.
+    std::string_view file;
+    /// The source itself, instead of the file's.
+    std::string_view text = {};
   };
   /// Throws SystemError with the compiler's log.
   Program(const Functions& gl, std::initializer_list<Stage> stages,

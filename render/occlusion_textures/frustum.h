@@ -1,6 +1,7 @@
-// From where occlusion textures see the casters, and into which slices they fall.
+// Occlusion textures, step 1: from where the casters are seen, and into which slices they fall.
 //
-// "Occlusion textures" (2006), section 3.4 and figure 5. The center of projection lies d behind the light,
+// In: casters, light, options. Out: a frustum with slices of equal thickness. "Occlusion textures" (2006), section 3.4 and
+// figure 5. The center of projection lies d behind the light,
 // and a point (x, y, z) of the light's frame is seen at q = (x, y) / (1 + z/d): where its line of sight meets
 // the light's plane. The frustum through the light's border is then the light itself in q, for every d, and
 // it contains a point when |q| ≤ half the light's extents, which gives the largest d that contains them all.
@@ -14,19 +15,22 @@
 
 namespace penumbra::detail {
 
-/// Light's frame with lengths times a power of two, so that the scene has about unit size.
+/// World → the light's frame with lengths times a power of two, so that the scene has about unit size.
 struct SliceSpace {
   SliceSpace(const AreaLight& light_, double scale_)
       : light(light_), scale(scale_), half(light_.half * scale_) {}
   Vec3 to_light(const Vec3& world) const { return light.to_light(world) * scale; }
   AreaLight light;
   double scale;
-  glm::dvec2 half;  ///< the light's, in this space
+  /// The light's half extents, in the light's frame.
+  glm::dvec2 half;
 };
 
-/// Casters nearer to the light's plane than this are cut.
+/// Accuracy: casters are cut where they are nearer to the light's plane than this, in the light's frame. Larger: more of
+/// them is lost (OcclusionTextures.HardCasesStayInRange).
 inline constexpr double kNearSlice = 0x1p-13;
-/// Widest tangent between a line of sight and the light's normal that `auto` accepts.
+/// Accuracy: the widest tangent between a line of sight and the light's normal that an automatic offset accepts. Wider
+/// frusta waste texels on what is far from the light's axis (OcclusionTextures.ErrorOnTheFloor).
 inline constexpr double kWidestSlope = 4.0;
 
 struct DepthRange {
@@ -38,17 +42,21 @@ struct DepthRange {
 
 /// What of a caster is in front of the light.
 struct CasterExtent {
-  std::vector<Vec3> points;  ///< vertices and where edges meet z = kNearSlice
+  /// Its vertices, and where its edges meet z = kNearSlice.
+  std::vector<Vec3> points;
   DepthRange depth;
-  bool cut = false;  ///< a part of it is not
+  /// A part of it is not in front.
+  bool cut = false;
 };
 CasterExtent caster_extent(const TriangleMesh& mesh, const SliceSpace& space);
 
 /// Slice i holds what lies between planes first + i·thickness (without) and first + (i+1)·thickness (with)
 /// and is projected to the latter.
 struct SliceFrustum {
-  double narrowing = 0.0;           ///< 1/d; 0: orthographic
-  glm::dvec2 low{-1.0}, high{1.0};  ///< window in q
+  /// 1/d; 0: orthographic.
+  double narrowing = 0.0;
+  /// The window of the textures, in q.
+  glm::dvec2 low{-1.0}, high{1.0};
   double first = 0.0, thickness = 1.0;
   int count = 4;
   double plane(int slice) const { return first + (slice + 1) * thickness; }

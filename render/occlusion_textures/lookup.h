@@ -1,9 +1,10 @@
-// How much of the light the slices leave, receiver by receiver.
+// Occlusion textures, step 5: how much of the light the slices leave, receiver by receiver.
 //
-// "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4. Seen from a receiver at depth z the light covers on
-// the plane at depth b the light scaled by 1 - b/z, about the receiver scaled by b/z: one box of the slice's
-// texture, whose mean is what it hides. Slices that end behind the receiver do not count, and the one that
-// ends just before it fades in with the distance to its plane, from 0 to 1 over one slice.
+// In: prefiltered slices, receivers in the light's frame. Out: V. "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4.
+// Seen from a receiver at depth z, the light covers one box on the plane at depth b: the light scaled by 1 - b/z, about the
+// receiver's position scaled by b/z. The mean of the slice's texture over that box is the part that the slice hides. Slices
+// that end behind the receiver do not count. The one that ends just before it fades in with the receiver's distance to its
+// plane, from 0 to 1 over one slice.
 #pragma once
 
 #include <array>
@@ -25,13 +26,15 @@ struct KernelPart {
 /// One box, or for OcclusionKernel::kDisk of a disk light strips across it.
 std::vector<KernelPart> kernel_parts(const AreaLight& light, OcclusionKernel kernel);
 
-/// Receivers that are looked up together, in the space of the frustum.
+/// Receivers that are looked up together, in the light's frame.
 struct SliceReceivers {
   static constexpr std::size_t kMost = TexelBoxes::kMost;
   std::size_t count = 0;
   alignas(64) std::array<double, kMost> x, y, z;
-  alignas(64) std::array<double, kMost> above;       ///< fraction of the light above the horizon
-  alignas(64) std::array<double, kMost> visibility;  ///< the answer
+  /// Fraction of the light above the horizon.
+  alignas(64) std::array<double, kMost> above;
+  /// Out: V.
+  alignas(64) std::array<double, kMost> visibility;
   void add(const Vec3& p, double above_horizon);
 };
 
@@ -39,7 +42,7 @@ struct SliceReceivers {
 class OcclusionLookup {
  public:
   virtual ~OcclusionLookup() = default;
-  /// Precondition: every z > 0. O(slices) each, whatever the light's size.
+  /// Fills `visibility`. Precondition: every z > 0. Cost O(slices) a receiver, whatever the light's size.
   virtual void look_up(SliceReceivers& receivers) const = 0;
   virtual std::size_t bytes() const = 0;
 };

@@ -8,6 +8,7 @@ namespace penumbra::detail {
 namespace {
 
 using gl::Object;
+/// Accuracy: samples a texel for SliceCoverage::kArea; one bit each of a byte.
 constexpr int kAreaSamples = 8;
 
 /// What a texel's byte stands for: one bit a sample.

@@ -1,8 +1,8 @@
-// All slices in one rendering pass: each texel of each slice covered or not.
+// Occlusion textures, steps 2 and 3: all slices in one rendering pass, each texel of each slice covered or not.
 //
-// "Occlusion textures" (2006), section 3.4: a fragment shader turns depth into a color channel. Here
-// fragments are joined by a bitwise OR instead of blending, so that a texel can also hold one bit for each of
-// eight samples (area coverage) and drawing order does not matter.
+// In: casters, frustum. Out: the texels of every slice. "Occlusion textures" (2006), section 3.4: a fragment shader turns
+// depth into a color channel. Here fragments are joined by a bitwise OR instead of blending, so that a texel can also hold
+// one bit for each of eight samples (area coverage) and drawing order does not matter.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +26,20 @@ struct MaskRange {
 
 /// How one caster is drawn.
 struct CasterDrawing {
-  bool fills_next = false;  ///< into the next slice too
-  bool front_only = false;  ///< only faces towards the center of projection
+  /// Into the next slice too.
+  bool fills_next = false;
+  /// Only faces towards the center of projection.
+  bool front_only = false;
 };
 
 class OcclusionMasks {
  public:
+  /// Uploads the casters' points, in the caster frame, and three indices a face.
   OcclusionMasks(const gl::Functions& gl, const std::vector<glm::vec3>& points,
                  const std::vector<std::uint32_t>& indices, std::vector<MaskRange> casters);
 
-  /// The uploaded points are at axes · point + offset in the frustum's space. `drawings`: one per caster.
+  /// The uploaded points are at axes · point + offset in the light's frame. `drawings`: one a caster. Adds the stages slices
+  /// and read_back to the clock. Cost O(faces + texels · slices).
   std::vector<SliceTexels> draw(const SliceFrustum& frustum, const glm::mat3& axes, const glm::vec3& offset,
                                 const std::vector<CasterDrawing>& drawings, const OcclusionOptions& options,
                                 StageClock& clock);

@@ -1,4 +1,4 @@
-// Prefilter 1 of 3: the mipmap pyramid, read trilinearly.
+// Occlusion textures, step 4, prefilter 1 of 3: the mipmap pyramid, read trilinearly.
 //
 // "Occlusion textures" (2006), section 3.2. Each level averages 2 × 2 texels of the one before; a kernel of
 // side s reads the two levels next to log2 s. The cheapest, and blocky: texels that are neighbors are

@@ -1,4 +1,4 @@
-// Prefilter 2 of 3: N-buffers, boxes of every power of two at every texel.
+// Occlusion textures, step 4, prefilter 2 of 3: N-buffers, boxes of every power of two at every texel.
 //
 // "Occlusion textures" (2006), section 3.2, after X. Décoret, "N-buffers for efficient depth map query"
 // (2005). Level l holds for each texel t the mean of [t, t + 2^l)². Placed continuously, by linear

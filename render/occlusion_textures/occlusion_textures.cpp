@@ -16,8 +16,12 @@
 namespace penumbra {
 namespace {
 
-constexpr int kTile = 16;        // pixels a side
-constexpr int kRowsAtOnce = 12;  // of tiles, before somebody is asked whether to go on
+// Speed (occlusion_bench).
+
+/// Pixels a side of the tiles that are looked up together.
+constexpr int kTile = 16;
+/// Rows of tiles between two calls of the progress callback, which wait for all threads.
+constexpr int kRowsAtOnce = 12;
 static_assert(kTile * kTile <= detail::SliceReceivers::kMost);
 
 void require_valid(const OcclusionOptions& o) {
@@ -54,7 +58,8 @@ struct OcclusionTextures::Impl {
   gl::Context& context;
   const Scene& scene;
   const RayScene& rays;
-  Vec3 origin;  ///< uploaded points: (world - origin) · scale
+  /// The caster frame, in which points are uploaded: (world - origin) · scale.
+  Vec3 origin;
   double scale;
   std::vector<const TriangleMesh*> casters;
   std::vector<double> thickness;  ///< one per caster

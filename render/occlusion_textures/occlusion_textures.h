@@ -1,18 +1,22 @@
 // Occlusion textures: the scene x-rayed in slices parallel to the light, prefiltered, and looked up once a
 // slice and pixel.
 //
-// In: casters (uploaded once), surface points. Out: visibility per pixel. "Occlusion textures" (2006). The
-// cost depends neither on the light's size nor, but for one rasterisation, on the casters:
+// In: the scene's casters (uploaded once), surface points, a light, disk or rectangle. Out: visibility V of every surface
+// point. E. Eisemann and X. Décoret, "Plausible image based soft shadows using occlusion textures" (2006). The cost depends
+// neither on the light's size nor, but for drawing them once, on the casters. The steps of a frame, in order, with the stage
+// of --stats that they are timed as:
 //
-//   occlusion_frustum.h    from where and in which slices the casters are seen        (section 3.4)
-//   occlusion_masks.h      4 to 16 slices into 1 to 4 RGBA targets, one pass, OpenGL  (section 3.4)
-//   mip_pyramid.h, n_buffer.h, summed_area.h: the prefilters, in C++                  (section 3.2)
-//   occlusion_lookup.h     the light's picture on each slice, and their combination   (sections 3.1, 3.3)
+//   1 frustum     frustum.h                               from where and in which slices the casters are seen  (section 3.4)
+//   2 slices      masks.h                                 4 to 16 slices into 1 to 4 RGBA targets, one pass    (section 3.4)
+//   3 read_back   masks.h                                 texels to the processor
+//   4 prefilter   mip_pyramid.h, n_buffer.h, summed_area.h                                                     (section 3.2)
+//   5 visibility  lookup.h                                the light's image on each slice, and their combination
+//                                                                                                     (sections 3.1, 3.3)
 //
-// Departures: the window of the textures is fitted to the casters and keeps only the light's proportions (the
-// paper's is the light itself), which wastes no texels; kernels that jut out of it are clipped exactly.
-// Prefilters and lookups are C++ on all cores: without a GPU that is faster than shaders. The receiver's
-// horizon is combined like one more slice.
+// Departures. The window of the textures is fitted to the casters and keeps only the light's proportions (the paper's is the
+// light itself): no texel is wasted, and kernels that jut out of it are clipped exactly. Prefilters and lookups are C++ on
+// all cores, which without a GPU is faster than shaders. Only faces that look at the center of projection are drawn where
+// that suffices (SliceFaces). The receiver's horizon is combined like one more slice.
 #pragma once
 
 #include <memory>
@@ -33,35 +37,44 @@
 
 namespace penumbra {
 
+/// How the mean of a box of texels is found.
 enum class OcclusionFilter {
   kMipmap,      ///< trilinear; cheapest, blocky
   kNBuffer,     ///< boxes of every power of two, placed continuously; interpolated between
   kSummedArea,  ///< every box exactly
 };
+/// How what the slices hide is put together.
 enum class OcclusionCombine {
   kProduct,  ///< slices hide independent parts of the light (the paper's eq. 5)
   kSum,      ///< disjoint parts
   kMaximum,  ///< the same part
 };
+/// By which boxes the light is looked up.
 enum class OcclusionKernel {
   kBox,   ///< of a disk light the square of equal area; of a rectangle its own shape
   kDisk,  ///< of a disk light strips that approximate it; of a rectangle its own shape
 };
+/// Whether each slice is drawn into the next one too, see OcclusionOptions::thin_fix.
 enum class ThinFix { kOff, kOn, kAuto };
+/// Which depths are sliced.
 enum class SliceRange {
   kScene,    ///< from the nearest to the farthest point of all objects
   kCasters,  ///< of the objects that cast
   kAuto,     ///< kCasters where something that does not cast begins less than one slice of the scene's range
              ///< behind the casters' far end: contact shadows need the finer slices; else kScene
 };
+/// What a texel of a slice holds.
 enum class SliceCoverage {
   kBinary,  ///< a texel is covered or not, by its center
   kArea,    ///< eight samples a texel
 };
+/// Which faces are drawn.
 enum class SliceFaces {
   kAll,    ///< every face, as the paper
   kFront,  ///< of closed casters wholly in front of the light only what faces the center of projection
 };
+
+/// The words for these, as in the options of the command line and in --stats.
 std::span<const NamedValue<OcclusionFilter>> occlusion_filters();
 std::span<const NamedValue<OcclusionCombine>> occlusion_combines();
 std::span<const NamedValue<OcclusionKernel>> occlusion_kernels();
@@ -71,8 +84,10 @@ std::span<const NamedValue<SliceCoverage>> slice_coverages();
 std::span<const NamedValue<SliceFaces>> slice_faces();
 
 struct OcclusionOptions {
-  int slices = 16;         ///< 4, 8, 12 or 16, of equal thickness
-  int texture_size = 512;  ///< texels a side: 128, 256, 512 or 1024
+  /// 4, 8, 12 or 16, of equal thickness.
+  int slices = 16;
+  /// Texels a side: 128, 256, 512 or 1024.
+  int texture_size = 512;
   OcclusionFilter filter = OcclusionFilter::kSummedArea;
   OcclusionCombine combine = OcclusionCombine::kProduct;
   OcclusionKernel kernel = OcclusionKernel::kBox;
@@ -89,10 +104,13 @@ struct OcclusionOptions {
 };
 
 struct OcclusionFrame {
-  std::vector<float> visibility;  ///< one per pixel of the surface; 1 where nothing is seen
+  /// One a receiver; 1 where nothing is seen.
+  std::vector<float> visibility;
   std::vector<StageTime> stages;
-  Counts counts;                         ///< slices used, frustum, bytes
-  std::vector<TexturePicture> textures;  ///< coverage of each slice in use, from the light on
+  /// Casters, slices in use, the frustum, bytes.
+  Counts counts;
+  /// Coverage of each slice in use, from the light on.
+  std::vector<TexturePicture> textures;
 };
 
 class OcclusionTextures {
@@ -101,9 +119,10 @@ class OcclusionTextures {
   /// Of `rays` only the scale and the threads are used.
   OcclusionTextures(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~OcclusionTextures();
-  /// Everything is made anew for the light, a disk or a rectangle: slices, prefilters, lookups. The light must have an
-  /// extent. Nothing behind its plane casts, and what is closer to it than 1/8192 of the scene
-  /// is cut off. Throws UsageError for options outside their range, Cancelled.
+  /// Visibility of receivers that are a picture's pixels and have normals, under a light that has an extent. Everything is
+  /// made anew: slices, prefilters, lookups. Nothing behind the light's plane casts, and what is closer to it than 1/8192 of
+  /// the scene is cut off. Throws UsageError for options outside their range, SystemError where OpenGL fails, Cancelled.
+  /// Cost O(faces + texels · slices + pixels · slices).
   OcclusionFrame render(const AreaLight& light, const Receivers& surface, const OcclusionOptions& options,
                         const Progress& progress = {});
 

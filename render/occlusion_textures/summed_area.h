@@ -1,9 +1,9 @@
-// Prefilter 3 of 3: a summed-area table, exact for every box.
+// Occlusion textures, step 4, prefilter 3 of 3: a summed-area table, exact for every box.
 //
 // "Occlusion textures" (2006), section 3.2. Sums are 32-bit integers of 8-bit coverage: exact up to 2048²
 // texels, where float sums lose texels from 256² on. A box's borders need not lie on texels: the table
 // interpolated linearly is the exact integral of the texture taken as constant on each texel. In plain C++,
-// since a scan is serial along its rows and a software rasteriser gains nothing on it.
+// since a scan is serial along its rows and a software rasterizer gains nothing on it.
 #pragma once
 
 #include <span>
@@ -29,7 +29,7 @@ class SummedArea {
     std::int32_t low;
     double share;  ///< of the corner above `low`
   };
-  /// Indices and differences fit 31 bits, which vectorises.
+  /// Indices and differences fit 31 bits, which vectorizes.
   struct Table {
     const std::uint32_t* sums;
     std::int32_t size;

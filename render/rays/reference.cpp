@@ -21,8 +21,9 @@ struct StratumTable {
   explicit StratumTable(int samples) : strata(samples) {
     const int padded = (strata.count() + kLanes - 1) / kLanes * kLanes;
     for (int i = 0; i < padded; ++i) {
-      columns.push_back(static_cast<float>(i % strata.columns));
-      rows.push_back(static_cast<float>(i / strata.columns));
+      const int column = i % strata.columns, row = i / strata.columns;
+      columns.push_back(static_cast<float>(column));
+      rows.push_back(static_cast<float>(row));
     }
   }
   detail::Strata strata;

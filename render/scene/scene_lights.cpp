@@ -52,7 +52,7 @@ LightShape read_shape(const SceneNode& node) {
 std::string read_name(const SceneNode& node) {
   const auto name = node.find("name");
   if (!name) return {};
-  const std::string text = name->text();
+  std::string text = name->text();
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
   if (text.empty() || !std::all_of(text.begin(), text.end(), fits))
     name->fail("is \"" + text + "\"; use letters, digits, '-' and '_'");

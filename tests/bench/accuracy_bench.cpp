@@ -1,6 +1,5 @@
 // The frame of every method against its error. The silhouette method is taken as the truth: it has no noise.
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,39 +13,33 @@ constexpr int kFrames = 5;
 constexpr double kNearlyNone = 1e-4;  // of the disk: above the silhouette method's own rounding
 
 struct Row {
-  const char* name;
-  std::function<void(RenderOptions&)> choose;
+  std::string name, method;
+  OptionValues options{};
 };
 
 std::vector<Row> rows() {
-  const auto d_buffer = [](auto change) {
-    return [change](RenderOptions& o) { o.method = Method::kDBuffer, change(o.d_buffer); };
-  };
-  const auto textures = [](auto change) {
-    return [change](RenderOptions& o) { o.method = Method::kOcclusionTextures, change(o.occlusion); };
-  };
-  const auto rays = [](int samples) {
-    return [samples](RenderOptions& o) { o.method = Method::kReference, o.reference.samples = samples; };
-  };
+  const std::string d_buffer = "dbuffer", textures = "occlusion-textures", reference = "reference";
+  const auto word = [](const char* text) { return OptionValue(std::string(text)); };
   return {
-      {"silhouette", [](RenderOptions& o) { o.method = Method::kSilhouette; }},
-      {"dbuffer", d_buffer([](DBufferOptions&) {})},
-      {"dbuffer, two entries", d_buffer([](DBufferOptions& o) { o.entries = 2; })},
-      {"dbuffer, no rays asked", d_buffer([](DBufferOptions& o) { o.check = EntryCheck::kNone; })},
-      {"dbuffer, furthest",
-       d_buffer([](DBufferOptions& o) { o.conflict = Conflict::kFurthest, o.check = EntryCheck::kNone; })},
-      {"dbuffer, the paper's", d_buffer([](DBufferOptions& o) {
-         o.contents = DBufferContents::kDistances, o.curve = VisibilityCurve::kSmoothstep;
-         o.center = CenterTest::kDepth, o.check = EntryCheck::kNone;
-       })},
-      {"occlusion-textures", textures([](OcclusionOptions&) {})},
-      {"occlusion-textures, 8 slices", textures([](OcclusionOptions& o) { o.slices = 8; })},
-      {"occlusion-textures, all faces", textures([](OcclusionOptions& o) { o.faces = SliceFaces::kAll; })},
-      {"rays, 256 rays", [](RenderOptions& o) { o.method = Method::kRays; }},
-      {"hard", [](RenderOptions& o) { o.method = Method::kHard; }},
-      {"reference, 16 rays", rays(16)},
-      {"reference, 64 rays", rays(64)},
-      {"reference, 256 rays", rays(256)},
+      {"silhouette", "silhouette"},
+      {"dbuffer", d_buffer},
+      {"dbuffer, two entries", d_buffer, {{"dbuffer-entries", 2u}}},
+      {"dbuffer, no rays asked", d_buffer, {{"dbuffer-check", word("none")}}},
+      {"dbuffer, furthest", d_buffer, {{"conflict", word("furthest")}, {"dbuffer-check", word("none")}}},
+      {"dbuffer, the paper's",
+       d_buffer,
+       {{"dbuffer", word("distances")},
+        {"visibility", word("smoothstep")},
+        {"dbuffer-center", word("depth")},
+        {"dbuffer-check", word("none")}}},
+      {textures, textures},
+      {"occlusion-textures, 8 slices", textures, {{"slices", 8u}}},
+      {"occlusion-textures, all faces", textures, {{"slice-faces", word("all")}}},
+      {"rays, 256 rays", "rays"},
+      {"hard", "hard"},
+      {"reference, 16 rays", reference, {{"samples", 16u}}},
+      {"reference, 64 rays", reference, {{"samples", 64u}}},
+      {"reference, 256 rays", reference},
   };
 }
 
@@ -81,17 +74,15 @@ struct Errors {
 };
 
 void measure(Record& record, const std::string& name) {
-  const Scene scene = bench_scene(name);
   const std::vector<Row> all = rows();
-  std::vector<RenderOptions> options(all.size());
-  for (std::size_t k = 0; k < all.size(); ++k) all[k].choose(options[k]);
-  Renderer renderer(scene, options.front());
+  Renderer renderer(bench_scene(name));
   std::vector<Measured> measured(all.size());
   SurfaceBuffer surface;
   for (int i = 0; i <= kFrames; ++i)
     for (std::size_t k = 0; k < all.size(); ++k) {
-      RenderResult frame = renderer.render_frame(options[k]);
-      if (options[k].method == Method::kDBuffer) record.set_renderer(frame.stats.at("renderer"));
+      renderer.forget();
+      RenderResult frame = renderer.render({.method = all[k].method, .options = all[k].options});
+      if (all[k].method == "dbuffer") record.set_renderer(frame.lights.front().renderer);
       if (i == 0)  // warms up
         measured[k].visibility = frame.image.at("visibility"), surface = std::move(frame.surface);
       else
@@ -101,7 +92,7 @@ void measure(Record& record, const std::string& name) {
     const std::string path = name + "/" + all[k].name;
     record.add(path + "/frame", "ms", measured[k].milliseconds);
     if (k == 0) continue;
-    const Errors errors(scene, surface, measured.front().visibility, measured[k].visibility);
+    const Errors errors(renderer.scene(), surface, measured.front().visibility, measured[k].visibility);
     record.add(path + "/RMSE floor", "1", errors.floor.rmse());
     record.add(path + "/RMSE casters", "1", errors.casters.rmse());
     record.add(path + "/largest", "1", std::max(errors.floor.largest, errors.casters.largest));

@@ -12,6 +12,7 @@
 #include "penumbra/render/image/error_figures.h"
 #include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/scene/scene.h"
+#include "render/rays/ray_scene.h"
 #include "render/rays/reference.h"
 #include "tests/bench/record.h"
 
@@ -19,9 +20,20 @@ namespace penumbra::bench {
 
 using SceneNames = std::vector<std::string>;
 
-/// A scene of data/scenes, by its name without folder and extension.
+/// A scene of data/scenes that has one light, by its name without folder and extension.
 inline Scene bench_scene(const std::string& name) {
   return load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+}
+
+/// The shape of the scene's only light.
+inline const LightShape& shape_of(const Scene& scene) {
+  return scene.lights.at(0).shape;
+}
+inline const DiskLight& disk_of(const Scene& scene) {
+  return require_disk(shape_of(scene), "the benchmark");
+}
+inline void set_radius(Scene& scene, double radius) {
+  std::get<DiskLight>(scene.lights.at(0).shape).radius = radius;
 }
 
 inline double total_ms(const std::vector<StageTime>& stages) {
@@ -64,9 +76,9 @@ struct Truth {
     ReferenceOptions options;
     options.samples = samples;
     options.seed = 101;
-    first = trace_reference(scene, rays, surface, pixels, options).visibility;
+    first = trace_reference(rays, shape_of(scene), surface.receivers(), pixels, options).visibility;
     options.seed = 102;
-    second = trace_reference(scene, rays, surface, pixels, options).visibility;
+    second = trace_reference(rays, shape_of(scene), surface.receivers(), pixels, options).visibility;
     for (std::uint32_t p : pixels)
       if (surface.hit(p)) receivers.push_back(p);
     penumbra = true_penumbra(first, second, receivers);

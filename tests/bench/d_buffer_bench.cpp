@@ -6,7 +6,8 @@
 #include <string>
 
 #include "penumbra/mesh/shapes.h"
-#include "penumbra/render/renderer.h"
+#include "render/d_buffer/d_buffer.h"
+#include "render/gl/context.h"
 #include "tests/bench/bench_support.h"
 
 namespace penumbra::bench {
@@ -32,7 +33,8 @@ int rays_of_equal_error(const Scene& scene, const RayScene& rays, const SurfaceB
     options.samples = n;
     options.seed = 7;
     std::vector<float> all(surface.size(), 1.0f);
-    const ReferenceResult r = trace_reference(scene, rays, surface, truth.penumbra, options);
+    const ReferenceResult r =
+        trace_reference(rays, shape_of(scene), surface.receivers(), truth.penumbra, options);
     for (std::size_t i = 0; i < truth.penumbra.size(); ++i) all[truth.penumbra[i]] = r.visibility[i];
     const double error = truth.rmse(all);
     if (error <= rmse) {
@@ -54,7 +56,7 @@ struct Stand {
         surface(make_surface_buffer(scene, rays, 640, 480)),
         context(gl::make_context(gl::Backend::kOsMesa)),
         d_buffer(*context, scene, rays) {
-    d_buffer.set_surface(surface);
+    d_buffer.set_surface(surface.receivers());
   }
   Scene scene;
   RayScene rays;
@@ -66,7 +68,7 @@ struct Stand {
 void time_scene(Record& record, const std::string& name) {
   Stand stand(bench_scene(name));
   const Truth truth(stand.scene, stand.rays, stand.surface, 1024);
-  const double rmse = truth.rmse(stand.d_buffer.render(stand.scene.light, {}).visibility);
+  const double rmse = truth.rmse(stand.d_buffer.render(disk_of(stand.scene), {}).visibility);
   ReferenceOptions equal;
   equal.samples = rays_of_equal_error(stand.scene, stand.rays, stand.surface, truth, rmse);
   const std::vector<std::uint32_t> pixels = all_pixels(stand.surface);
@@ -74,11 +76,12 @@ void time_scene(Record& record, const std::string& name) {
   std::map<std::string, std::vector<double>> stages;
   std::vector<double> frames, rays, paired_frames;
   for (int i = 0; i < kFrames; ++i) {
-    const DBufferFrame frame = fresh_frame(stand.d_buffer, stand.scene.light);
+    const DBufferFrame frame = fresh_frame(stand.d_buffer, disk_of(stand.scene));
     for (const StageTime& s : frame.stages) stages[s.name].push_back(s.milliseconds);
     frames.push_back(total_ms(frame.stages));
     if (!rays.empty() && rays.back() > kLongFrame && i >= 2) continue;
-    const ReferenceResult r = trace_reference(stand.scene, stand.rays, stand.surface, pixels, equal);
+    const ReferenceResult r =
+        trace_reference(stand.rays, shape_of(stand.scene), stand.surface.receivers(), pixels, equal);
     rays.push_back(r.milliseconds);
     paired_frames.push_back(frames.back());
   }
@@ -97,7 +100,7 @@ void time_scene(Record& record, const std::string& name) {
 std::vector<double> frame_times(Stand& stand, const DBufferOptions& options = {}) {
   std::vector<double> times;
   for (int i = 0; i <= kFrames; ++i) {
-    const double total = total_ms(fresh_frame(stand.d_buffer, stand.scene.light, options).stages);
+    const double total = total_ms(fresh_frame(stand.d_buffer, disk_of(stand.scene), options).stages);
     if (i > 0) times.push_back(total);
   }
   return times;
@@ -125,7 +128,7 @@ void time_faces(Record& record) {
 void time_radii(Record& record, const std::string& name) {
   Scene scene = bench_scene(name);
   for (double radius : {0.05, 0.1, 0.2, 0.4, 0.8, 1.6}) {
-    scene.light.radius = radius;
+    set_radius(scene, radius);
     Stand stand(scene);
     char text[16];
     std::snprintf(text, sizeof text, "%g", radius);

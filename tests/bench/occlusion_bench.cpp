@@ -52,28 +52,24 @@ void time_prefilters(Record& record) {
   }
 }
 
-RenderOptions occlusion_options(int slices) {
-  RenderOptions options;
-  options.method = Method::kOcclusionTextures;
-  options.occlusion.slices = slices;
-  return options;
+double frame_ms(Renderer& renderer, std::uint64_t slices) {
+  renderer.forget();
+  return renderer.render({.method = "occlusion-textures", .options = {{"slices", slices}}}).frame_ms;
 }
 
 /// One frame of each in turn: what else the machine does hits all alike.
 void time_radii(Record& record, const std::string& name) {
   const std::vector<double> radii{0.2, 0.4, 0.8, 1.6, 3.2};
-  std::vector<Scene> scenes(radii.size(), bench_scene(name));
   std::vector<std::unique_ptr<Renderer>> renderers;
-  const RenderOptions options = occlusion_options(16);
-  for (std::size_t i = 0; i < radii.size(); ++i) {
-    scenes[i].light.radius = radii[i];
-    renderers.push_back(std::make_unique<Renderer>(scenes[i], options));
-    renderers.back()->render_frame(options);
+  for (const double radius : radii) {
+    Scene scene = bench_scene(name);
+    set_radius(scene, radius);
+    renderers.push_back(std::make_unique<Renderer>(std::move(scene)));
+    frame_ms(*renderers.back(), 16);
   }
   std::vector<std::vector<double>> frames(radii.size());
   for (int round = 0; round < kRounds; ++round)
-    for (std::size_t i = 0; i < radii.size(); ++i)
-      frames[i].push_back(renderers[i]->render_frame(options).frame_ms);
+    for (std::size_t i = 0; i < radii.size(); ++i) frames[i].push_back(frame_ms(*renderers[i], 16));
   for (std::size_t i = 0; i < radii.size(); ++i) {
     char radius[16];
     std::snprintf(radius, sizeof radius, "%g", radii[i]);
@@ -84,13 +80,12 @@ void time_radii(Record& record, const std::string& name) {
 }
 
 void time_slices(Record& record, const std::string& name) {
-  const Scene scene = bench_scene(name);
-  Renderer renderer(scene, occlusion_options(16));
+  Renderer renderer(bench_scene(name));
   const std::vector<int> counts{4, 8, 12, 16};
   std::vector<std::vector<double>> frames(counts.size());
   for (int round = 0; round <= kRounds; ++round)
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      const double ms = renderer.render_frame(occlusion_options(counts[i])).frame_ms;
+      const double ms = frame_ms(renderer, static_cast<std::uint64_t>(counts[i]));
       if (round > 0) frames[i].push_back(ms);
     }
   for (std::size_t i = 0; i < counts.size(); ++i)

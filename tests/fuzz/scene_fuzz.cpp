@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "penumbra/mesh/error.h"
+#include "penumbra/render/light/light.h"
 #include "penumbra/render/scene/scene.h"
 
 namespace {
@@ -34,7 +35,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   try {
     const penumbra::LoadedScene loaded = penumbra::load_scene(file);
-    if (!(penumbra::disk_around(loaded.scene.lights.at(0).shape).radius >= 0.0)) std::abort();
+    if (loaded.scene.lights.empty()) std::abort();
+    for (const penumbra::Light& light : loaded.scene.lights)
+      if (!(penumbra::disk_around(light.shape).radius >= 0.0)) std::abort();
   } catch (const penumbra::SceneError&) {
   } catch (const penumbra::MeshError&) {
   }

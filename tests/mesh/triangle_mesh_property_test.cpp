@@ -17,7 +17,7 @@ struct Soup {
   std::vector<IndexedTriangle> triangles;
 };
 
-/// Few positions, so that duplicates, fins, bow-ties, misoriented neighbours and degenerate faces abound.
+/// Few positions, so that duplicates, fins, bow-ties, misoriented neighbors and degenerate faces abound.
 Soup random_soup(std::mt19937_64& random, std::uint32_t vertices, std::uint32_t faces) {
   Soup soup;
   for (std::uint32_t i = 0; i < vertices; ++i) {

@@ -100,7 +100,7 @@ const std::vector<Exemption>& exemptions() {
       {"Embree's part of the ray scene", "render/receivers/surface_buffer.cpp", "render/rays/ray_scene_impl.h", kPackets},
       {"Embree's part of the ray scene", "render/silhouette/light_rays.cpp", "render/rays/ray_scene_impl.h", kPackets},
       {"no circle of folders", "render/receivers/occluding_casters.h", "render/rays/ray_scene.h",
-       "it takes the faces of casters from the ray scene"},
+       "the frame of rays (RayFrame) is declared there"},
       {"edges are the first step", "render/silhouette/edges/point_groups.cpp", "render/silhouette/collect/light_band.h",
        "a group is tested as a shaft's box is, against the light"},
       {"merge comes before collect", "render/silhouette/merge/merged_lanes.cpp", "render/silhouette/collect/shaft.h",

@@ -20,7 +20,7 @@ class ConvexPieces {
                const DiskLight& light)
       : positions_(positions), triangles_(triangles), center_(light.center), frame_(light_frame(light)) {
     compute_planes();
-    gather();
+    collect();
     witness_.assign(pieces_.size(), 0);
     // A tree over boxes, by way of one "triangle" per box.
     for (const Piece& piece : pieces_) {
@@ -179,7 +179,7 @@ class ConvexPieces {
     return v;
   }
 
-  void gather() {
+  void collect() {
     parent_.resize(positions_.size());
     std::iota(parent_.begin(), parent_.end(), 0u);
     for (const IndexedTriangle& t : triangles_) {

@@ -141,7 +141,7 @@ TEST(Supports, CubesConesTurnOnceRoundTheDisk) {
     EXPECT_EQ(cone.kind, SupportKind::kPenumbra) << "convex casters have no umbra cones";
     EXPECT_GT(cone.to_angle, cone.from_angle);
     turn += cone.to_angle - cone.from_angle;
-    // The sector runs from one facet at its vertex to its neighbour in the loop.
+    // The sector runs from one facet at its vertex to its neighbor in the loop.
     const SupportFacet& from = f.supports.facets[cone.from_facet];
     EXPECT_TRUE(from.next == cone.to_facet || from.previous == cone.to_facet);
     EXPECT_NEAR(std::remainder(from.rim_angle - cone.from_angle, 2 * kPi), 0.0, 1e-12);

@@ -8,7 +8,9 @@ namespace penumbra::detail {
 
 namespace {
 
-constexpr double kSlack = 1e-12;  // of the component's radius
+// Accuracy: how far an edge may bend inward, as a fraction of the component's radius. Some thousand
+// roundings.
+constexpr double kSlack = 1e-12;
 
 bool bends_outward(const TriangleMesh& mesh, const Edge& edge, double slack) {
   const Vec3 &a = mesh.position(edge.from), &b = mesh.position(edge.to), &c = mesh.position(edge.left_apex);

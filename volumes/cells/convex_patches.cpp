@@ -13,6 +13,8 @@ namespace penumbra::detail {
 
 namespace {
 
+// Speed: a patch has at most this many faces. More faces make fewer cells, but each try to join one costs
+// more.
 constexpr std::size_t kMostFaces = 64;
 
 /// A plane through three vertices; its outer side is the one from which they run counter-clockwise.

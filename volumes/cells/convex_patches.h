@@ -1,5 +1,5 @@
-// Faces of a solid joined into patches whose convex hulls the solid contains, so that a penumbra volume needs
-// one cell a patch instead of one a face.
+// Joins faces of a solid into patches whose convex hulls the solid contains. A penumbra volume then needs one
+// cell a patch instead of one a face.
 //
 // Let K be the hull of a patch of faces of a closed component whose winding number is nowhere negative. If no
 // face of the component meets the interior of K, the winding number is constant there, and it is one more
@@ -29,22 +29,25 @@
 namespace penumbra::detail {
 
 struct ConvexPatch {
-  std::vector<FaceId> faces;            ///< in the order in which they joined; connected across edges
-  std::vector<std::uint32_t> vertices;  ///< each once
+  /// In the order in which they joined; connected across edges.
+  std::vector<FaceId> faces;
+  /// Each once.
+  std::vector<std::uint32_t> vertices;
 };
 
 /// Finds the patches of a mesh's components one after another.
 class PatchFinder {
  public:
-  explicit PatchFinder(const TriangleMesh& mesh);  ///< keeps a reference
+  /// Keeps a reference to the mesh.
+  explicit PatchFinder(const TriangleMesh& mesh);
   ~PatchFinder();
 
-  /// Divides `members`, faces of `component` of which none is degenerate, into patches as above (of one face
-  /// where nothing can be joined). The component is closed and oriented outward. Every patch grows breadth
-  /// first to at most 64 faces; where it starts and goes first depends on positions alone, so that the order
-  /// of faces changes nothing. Calls `after_each(patch)` for each patch; should that throw, the finder is of
-  /// no further use. Expected cost O(n log n) for n faces of the component, with a factor of the faces near a
-  /// patch.
+  /// Divides `members`, faces of `component` of which none is degenerate, into patches as above. A face that
+  /// can be joined to no other is a patch of its own. The component must be closed and oriented outward. Each
+  /// patch grows breadth first to at most 64 faces. Where it begins and grows first depends on positions
+  /// alone, so the order of faces changes nothing. Calls `after_each(patch)` for each patch; if that throws,
+  /// the finder is of no further use. Expected cost O(n log n) for n faces of the component, times the number
+  /// of faces near a patch.
   std::vector<ConvexPatch> find(const Component& component, std::span<const FaceId> members,
                                 const std::function<void(const ConvexPatch&)>& after_each = {});
 

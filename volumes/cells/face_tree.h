@@ -1,4 +1,4 @@
-// A tree of bounding boxes over faces of a mesh, to find those near a box.
+// A tree of bounding boxes over faces of a mesh, which finds those near a box.
 #pragma once
 
 #include <span>
@@ -13,8 +13,9 @@ class FaceTree {
   /// Keeps a reference to `mesh`. Cost O(n log n) for n faces.
   FaceTree(const TriangleMesh& mesh, std::span<const FaceId> faces);
 
-  /// Calls visit(face) for every face whose bounding box meets `box` (closed boxes, exact comparisons), until
-  /// it returns false; returns whether it never did. The order is that of the tree.
+  /// Calls visit(face) for every face whose bounding box meets `box`, until it returns false. Boxes are
+  /// closed, and comparisons exact. Returns true if visit never returned false. The order is that of the
+  /// tree.
   template <class Visit>
   bool for_each_near(const Bounds& box, Visit visit) const {
     std::size_t i = 0;

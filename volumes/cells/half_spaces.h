@@ -1,4 +1,4 @@
-// A bounded intersection of half-spaces, exactly.
+// A bounded intersection of half-spaces, computed exactly.
 #pragma once
 
 #include <span>
@@ -8,18 +8,22 @@
 
 namespace penumbra::detail {
 
-/// Below the plane through three points that run counter-clockwise seen from outside.
+/// What is below the plane through three points. Seen from above, which is outside, they run
+/// counter-clockwise.
 using HalfSpace = std::array<Vec3, 3>;
 
 struct HalfSpaceCell {
-  std::vector<Vec3> positions;             ///< rounded to the nearest double
-  std::vector<IndexedTriangle> triangles;  ///< outward; every half-edge matched by its opposite
-  std::vector<std::uint32_t> half_spaces;  ///< per triangle the one that bounds it there
+  /// Rounded to the nearest double.
+  std::vector<Vec3> positions;
+  /// Oriented outward; every half-edge is matched by its opposite.
+  std::vector<IndexedTriangle> triangles;
+  /// For each triangle the half-space that bounds the cell there.
+  std::vector<std::uint32_t> half_spaces;
 };
 
-/// The average of the four points of `inside` has to be strictly inside of every half-space, and the
-/// intersection bounded; empty where the former is not so. Vertices where more than three planes meet exactly
-/// are one vertex. Expected cost O(n log n).
+/// The average of the four points of `inside` has to be strictly inside every half-space; where it is not,
+/// the result is empty. The intersection has to be bounded. Where more than three planes meet exactly there
+/// is one vertex. Expected cost O(n log n) for n half-spaces, in exact arithmetic.
 HalfSpaceCell intersect_half_spaces(std::span<const HalfSpace> half_spaces,
                                     const std::array<Vec3, 4>& inside);
 

@@ -14,15 +14,32 @@ namespace penumbra::detail {
 
 namespace {
 
+// Accuracy. Containment is held by extrude_penumbra_property_test.cpp and checks/light_poses_test.cpp.
+
 // A body whose least depth is below this fraction of the far plane's is cut off by distance instead: the
 // plane's corners would be too far out to the side.
 constexpr double kLeastDepth = 1e-4;
 // Beyond this ratio of the bound's distance to the body's the cell is the whole half-space in front.
 constexpr double kGreatestScale = 1e7;
-// The polygon is larger than circumscribed by these, relative to the light and to the largest coordinate, so
-// that rounding of its corners and of far points (some 2^-52 of the coordinates, seen at the angle of the
-// ray) keeps containment.
+// The polygon is larger than circumscribed by these, relative to the light and to the largest coordinate. So
+// containment survives the rounding of its corners and of far points, which is some 2^-52 of the coordinates,
+// seen at the angle of the ray.
 constexpr double kLightMargin = 1e-9, kRoundingMargin = 1e-14;
+// A vertex is left out of the far end's outline where its far disk is inside by more than this fraction of
+// the outline's size: far above rounding.
+constexpr double kWellInside = 1e-9;
+// Edges of the outline that are shorter than this fraction of its size are left out: together they are far
+// below kWellInside.
+constexpr double kNoEdge = 1e-13;
+
+// Speed. They change which vertices and faces a cell has, never what it contains within the bound.
+
+// Bodies with up to this many vertices keep them all.
+constexpr std::size_t kFewVertices = 12;
+// Directions in which the outline of a larger body is searched for.
+constexpr int kDirections = 48;
+// Depth of the point that keeps the far end from being flat, relative to the far plane's.
+constexpr double kDome = 1.05;
 
 /// What the choice of the far end depends on.
 struct BodyExtent {
@@ -95,10 +112,6 @@ struct FarDisk {
 /// that polygon adds nothing.
 std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach& reach, double far_depth,
                                    double inradius, double circumradius) {
-  constexpr std::size_t kFewVertices = 12;
-  constexpr int kDirections = 48;
-  constexpr double kWellInside = 1e-9;  // of the polygon's size: far above rounding
-  constexpr double kNoEdge = 1e-13;     // shorter edges are left out: together far below kWellInside
   if (body.size() <= kFewVertices) return {body.begin(), body.end()};
 
   std::vector<FarDisk> disks;
@@ -142,7 +155,6 @@ std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach
 /// flat: its triangulation then needs no exact arithmetic.
 CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, const UnitPolygon& polygon,
                         const BodyExtent& extent) {
-  constexpr double kDome = 1.05;
   const double far_depth = std::max(reach.far_depth, 2.0 * extent.greatest_depth);
   // Far points are off by a few 2^-53 of their size across the ray; moving them by `margin` in a plane
   // parallel to the light moves them across the ray by margin · depth / distance.

@@ -1,4 +1,4 @@
-// One convex cell of a penumbra volume: everything that a convex body can keep from some of the light.
+// One convex cell of a penumbra volume: all points from which a convex body hides some of the light.
 //
 // Let K be convex, in front of the light's plane, and P a convex polygon in that plane around the disk. A
 // point x is shaded by k ∈ K from p ∈ P iff x = p + s(k - p) for an s ≥ 1. The set C of all such x is K ⊕
@@ -19,8 +19,10 @@ namespace penumbra::detail {
 
 struct Cell {
   std::vector<Vec3> positions;
-  std::vector<IndexedTriangle> triangles;  ///< closed, outward; none where the cell has no interior
-  std::vector<ShadowKind> kinds;           ///< one per triangle: kCell or kFarCap
+  /// Closed, oriented outward. None where the cell has no interior.
+  std::vector<IndexedTriangle> triangles;
+  /// One per triangle: kCell or kFarCap.
+  std::vector<ShadowKind> kinds;
 };
 
 /// Corners of a regular polygon circumscribed to the unit circle.
@@ -34,9 +36,9 @@ struct UnitPolygon {
 /// light's plane for that end at a distance, the larger the body the more loosely.
 bool is_cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach);
 
-/// The cell of conv(body), body in front of the light's plane (or behind it by rounding). Contains, within
-/// the bound, every point that conv(body) shades from some point of the disk. Radius 0 takes the light as a
-/// point.
+/// The cell of conv(body). The body is in front of the light's plane, or behind it by rounding at most.
+/// Within the bound the cell contains every point that conv(body) shades from some point of the disk. A light
+/// of radius 0 is a point.
 Cell make_penumbra_cell(std::span<const Vec3> body, const ShadowReach& reach, const UnitPolygon& polygon);
 
 }  // namespace penumbra::detail

@@ -15,9 +15,9 @@
 
 namespace penumbra::detail {
 
-/// `Points` supplies `count()`; `orient3d(a, b, c, d)` and `collinear(a, b, c)` of four and three of its
-/// points, by index, exactly (predicates.h); and `rounded(i)`, which only chooses what is tried first.
-/// `run()` returns what `convex_hull` (convex_hull.h) does, at the cost stated there.
+/// `Points` supplies `count()`, the exact predicates `orient3d(a, b, c, d)` and `collinear(a, b, c)` of its
+/// points by index, and `rounded(i)`, a position that only chooses which point is tried first. `run()`
+/// returns what convex_hull (convex_hull.h) does, at the cost stated there.
 template <class Points>
 class Quickhull {
  public:

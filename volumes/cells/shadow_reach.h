@@ -1,4 +1,4 @@
-// How far shadows are drawn, and in which frame: shared by sheets and volumes.
+// How far sheets and volumes reach, and the light's frame that they are made in.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -16,14 +16,18 @@ struct ShadowReach {
   double radius;     ///< of the light
   Vec3 bound_center;
   double bound_radius;
-  double far_depth;  ///< a plane parallel to the light at this depth is beyond the bound (perhaps negative)
+  /// A plane parallel to the light at this depth is beyond the bound. Negative where the bound is behind the
+  /// light.
+  double far_depth;
 
+  /// The distance in front of the light's plane, negative behind it.
   double depth(const Vec3& p) const { return glm::dot(frame.w, p - center); }
-  /// No point of the bound is farther than this from a point of the disk.
+  /// An upper bound of the distance between a point of the bound and a point of the disk.
   double distance() const;
 };
 
-/// Throws UsageError unless the bound is a finite sphere and the polygon around the disk has 3 corners or more.
+/// Throws UsageError unless the bound is a finite sphere and the polygon around the disk has 3 corners or
+/// more.
 void require_valid(const ExtrudeOptions& options);
 
 /// Throws UsageError as require_valid does.

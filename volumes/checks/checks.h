@@ -1,4 +1,5 @@
-// Repair and checks with CGAL packages that are under the GPL: the target penumbra::checks, on top of volumes.h.
+// Repair and checks with CGAL packages that are under the GPL: the target penumbra::checks, on top of
+// volumes.h.
 //
 //   volumes/checks/repair.h     triangles as they come → mended components, and a report
 //   volumes/checks/validate.h   volumes                → findings, as data

@@ -62,8 +62,8 @@ bool PieceList::contains(const Vec3& x) const {
 }
 
 Vec3 PieceList::point_inside(std::mt19937_64& random) const {
-  constexpr int kCorners = 4;
-  constexpr double kInward = 1e-6;
+  constexpr int kCorners = 4;       // averaged
+  constexpr double kInward = 1e-6;  // weight of the piece's middle: far above rounding
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const auto pick = [&](std::size_t count) {
     return std::min(count - 1, static_cast<std::size_t>(unit(random) * static_cast<double>(count)));

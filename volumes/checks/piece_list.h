@@ -8,18 +8,21 @@
 
 namespace penumbra::detail {
 
-/// For each connected part, by indices, its triangles; in the order of their first triangles.
+/// For each part that is connected by indices, its triangles. Parts are in the order of their first
+/// triangles.
 std::vector<std::vector<std::uint32_t>> connected_pieces(std::size_t vertex_count,
                                                          std::span<const IndexedTriangle> triangles);
 
-/// Pieces taken to be convex, as those of umbra and penumbra volumes are. Holds the mesh by reference.
+/// The pieces of a mesh, taken to be convex, as those of umbra and penumbra volumes are. Keeps a reference to
+/// the mesh.
 class PieceList {
  public:
   explicit PieceList(const ShadowMesh& mesh);
 
-  /// Not beyond any triangle of some piece, exactly. Cost O(pieces + triangles of those whose box holds x).
+  /// Whether x is, for some piece, beyond none of its triangles; decided exactly. Cost O(pieces + triangles
+  /// of those whose box holds x).
   bool contains(const Vec3& x) const;
-  /// An average of some corners of a piece, drawn inward a little, so that rounding does not take it outside.
+  /// An average of some corners of a piece, moved inward a little so that rounding does not take it outside.
   /// The mesh must not be empty.
   Vec3 point_inside(std::mt19937_64& random) const;
 

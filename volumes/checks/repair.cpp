@@ -42,7 +42,7 @@ class Repairer {
         for (const FaceId f : component.faces) rest.push_back(source(f));
     }
     std::sort(rest.begin(), rest.end());
-    for (std::vector<std::uint32_t>& group : gathered(rest))
+    for (std::vector<std::uint32_t>& group : collected(rest))
       result_.components.push_back(settle_open(std::move(group)));
     std::sort(result_.components.begin(), result_.components.end(),
               [](const auto& a, const auto& b) { return a.faces.front() < b.faces.front(); });
@@ -72,7 +72,7 @@ class Repairer {
   }
 
   /// Faces joined over shared edges, each group ascending.
-  std::vector<std::vector<std::uint32_t>> gathered(const std::vector<std::uint32_t>& faces) const {
+  std::vector<std::vector<std::uint32_t>> collected(const std::vector<std::uint32_t>& faces) const {
     std::vector<std::uint32_t> parent(faces.size());
     std::iota(parent.begin(), parent.end(), 0u);
     const auto root = [&](std::uint32_t i) {

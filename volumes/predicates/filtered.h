@@ -1,4 +1,4 @@
-// Plain double with a bound on its error that the compiler derives: the first tier of predicates.h.
+// Plain double with a bound on its error, which the compiler derives: the first tier of predicates.h.
 #pragma once
 
 #include <algorithm>

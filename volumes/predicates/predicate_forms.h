@@ -139,10 +139,9 @@ auto wedge_form(const Vec3& a, const Vec3& b, const Vec3& q, const DiskLight& li
 /// The first tangent bounds the wedge clockwise, seen against a → b; its disk side is counter-clockwise of
 /// it.
 ///  - The plane (a, b, q) misses the disk: q is in a side wedge. N·(center - a) > 0 says that it is the
-///  clockwise one:
-///    beyond the first tangent, on the disk's side of the second.
+///    clockwise one: beyond the first tangent, on the disk's side of the second.
 ///  - It meets the open disk: q is in the wedge (positive for both) or in its mirror image (negative for
-///  both).
+///    both).
 ///  - It touches: q is on the tangent that those two signs name.
 template <class Arithmetic>
 std::optional<std::array<Sign, 2>> sides_of_tangent_planes_in(const Vec3& a, const Vec3& b, const Vec3& q,

@@ -1,5 +1,5 @@
-// The tiers of predicates.h one by one, for tests and for tallies. Filter and interval return nothing where
-// they cannot decide; whatever they return agrees with the exact tier.
+// The tiers of predicates.h one by one, for tests and for tallies. The tiers `filter` and `interval` return
+// nothing where they cannot decide. Whatever they return agrees with the tier `exact`.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace penumbra::detail {
 
-/// Plain double with a derived error bound (detail/filtered.h).
+/// Plain double with a derived bound on its error (volumes/predicates/filtered.h).
 namespace filter {
 std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light);
 std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
@@ -42,7 +42,7 @@ std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const 
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace exact
 
-/// Whether a, b and c lie on one line (two equal points do), through all tiers.
+/// Whether a, b and c lie on one line (where two are equal they do). Asks all tiers.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
 }  // namespace penumbra::detail

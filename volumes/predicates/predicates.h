@@ -1,12 +1,12 @@
-// The only place where signs are decided for classification, topology and certificates.
+// Exact signs. Nothing else decides signs for classification, topology and certificates.
 //
-// Every predicate returns the exact sign for the (finite) doubles it is given: a filter in plain double with
-// a derived error bound (detail/filtered.h), then interval arithmetic, then exact arithmetic (CGAL). There is
-// no tolerance anywhere. Overflow and underflow of the filter fall through to the exact tier. The radius
-// enters by its square, so that everything is rational in the inputs. Expects the default floating-point
-// environment: rounding to nearest, subnormals not flushed.
+// Every predicate returns the exact sign for the finite doubles that it is given. Three tiers of arithmetic
+// are asked in turn: plain double with a derived bound on its error (volumes/predicates/filtered.h),
+// intervals, and exact numbers (CGAL). There is no tolerance. Where the first tier overflows or underflows, a
+// later one decides. The radius enters by its square, so everything is rational in the inputs. The
+// floating-point environment has to be the default one: rounding to nearest, subnormals not flushed.
 //
-// Laws that hold exactly are stated at each function and tested.
+// The laws at each function hold exactly and are tested. Cost O(1) each.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ namespace penumbra {
 
 enum class Sign : std::int8_t { kNegative = -1, kZero = 0, kPositive = 1 };
 
-/// How a face looks from the disk. Both outer classes are strict: a face whose plane touches the closed disk
-/// is mixed.
+/// How much of the disk a face looks at. Both outer classes are strict: a face whose plane touches the closed
+/// disk is mixed.
 enum class FaceClass : std::uint8_t { kNoneFront = 0, kMixed = 1, kAllFront = 2 };
 
 /// Class of the face (a, b, c) against the closed disk, by the extremes of N·(p - a), N = (b - a) × (c - a),

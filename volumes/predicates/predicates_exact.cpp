@@ -1,5 +1,5 @@
-// The second and third tier of predicates.h. The only file of this library that includes CGAL; compiled with
-// -frounding-math, since intervals are computed under directed rounding.
+// The second and third tier of predicates.h. Compiled with -frounding-math, since intervals are computed
+// under directed rounding.
 #include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>
 #include <CGAL/Mpzf.h>

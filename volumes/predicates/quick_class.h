@@ -19,7 +19,7 @@ namespace penumbra::detail {
 /// where every sum is taken of absolute values: |N_i| ≤ S by Cauchy and Schwarz, so |d| ≤ √3 S |w| and
 /// |(N × m)_i| ≤ √2 S |m|, and
 ///     d²(m·m) + r²|N × m|² ≤ (3 + 6) Q².
-/// Evaluated in double the form takes 22 roundings at most (detail/filtered.h counts them), so it is off by
+/// Evaluated in double the form takes 22 roundings at most (filtered.h counts them), so it is off by
 /// less than 23 u 9 Q², u = 2^-53; kBound doubles that and more, for the roundings of Q² itself. In the
 /// ranges below nothing overflows, and underflow adds less than a rounding; elsewhere nothing is decided. A
 /// form above the bound says that d²(m·m) > 2^-44 Q², so |d| > 2^-22 S R, and its rounding error, below 9 u

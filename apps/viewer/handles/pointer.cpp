@@ -39,8 +39,9 @@ void Pointer::update(State& state, const Frame* frame) {
   const bool ours = inside && !io.WantCaptureMouse;
   at_ = ours || dragging() ? std::optional(pointer) : std::nullopt;
   if (!dragging()) {
-    hovered_ = ours && state.overlays.light ? pick(handle_shape(state.light, projection), projection, pointer)
-                                            : Handle::kNone;
+    hovered_ = ours && state.overlays.light
+                   ? pick(handle_shape(state.light(), projection), projection, pointer)
+                   : Handle::kNone;
     over_divider_ = ours && state.arrangement == Arrangement::kSplit && hovered_ == Handle::kNone &&
                     std::abs(pointer.x - state.divider * width) < kDividerReach;
     for (const int button : {kLeft, kMiddle})
@@ -63,7 +64,7 @@ void Pointer::press(const State& state, const Projection& projection, int button
     drag_ = Drag::kPan;
   } else if (hovered_ != Handle::kNone) {
     drag_ = Drag::kHandle;
-    held_.emplace(hovered_, state.light, projection, *at_);
+    held_.emplace(hovered_, state.light(), projection, *at_);
   } else {
     drag_ = over_divider_ ? Drag::kDivider : Drag::kRotate;
   }
@@ -79,7 +80,7 @@ void Pointer::drag(State& state, const Projection& projection, double x_pixels, 
       state.camera = panned(state.camera, width, height, x_pixels, y_pixels);
       break;
     case Drag::kHandle:
-      state.light = held_->moved_to(projection, *at_);
+      state.set_light(held_->moved_to(projection, *at_));
       break;
     case Drag::kDivider:
       state.divider = std::clamp(at_->x / width, 0.02, 0.98);

@@ -24,10 +24,11 @@ Color visibility_color(float visibility) {
 
 }  // namespace
 
-Pixels picture_of(const Side& side, Shown shown, double exposure) {
+Pixels picture_of(const Frame& frame, const Side& side, Shown shown, double exposure) {
   const Image& image = side.result->image;
   if (shown != Shown::kPicture) {
-    const std::vector<float>& values = image.at(shown == Shown::kRegion ? "region" : "visibility");
+    const std::vector<float>& values =
+        image.at(frame.channel(shown == Shown::kRegion ? "region" : "visibility"));
     Pixels pixels{image.width, image.height, std::vector<unsigned char>(3 * values.size(), 230)};
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!side.result->surface.hit(i)) continue;
@@ -39,9 +40,11 @@ Pixels picture_of(const Side& side, Shown shown, double exposure) {
   return {image.width, image.height, encode_srgb(image, exposure)};
 }
 
-Pixels difference_of(const Side& left, const Side& right, double scale) {
+Pixels difference_of(const Frame& frame, double scale) {
+  const Side &left = frame.sides.front(), &right = frame.sides.back();
+  const std::string channel = frame.channel("visibility");
   const Image& image = left.result->image;
-  const std::vector<float>&a = image.at("visibility"), &b = right.result->image.at("visibility");
+  const std::vector<float>&a = image.at(channel), &b = right.result->image.at(channel);
   Pixels pixels{image.width, image.height, std::vector<unsigned char>(3 * a.size(), 230)};
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (!left.result->surface.hit(i)) continue;

@@ -18,9 +18,9 @@ using Polygon = std::vector<Point2>;
 
 class DiskRaster {
  public:
-  DiskRaster(const Scene& scene, const Vec3& x, int size)
-      : light_(scene.light),
-        frame_(light_frame(scene.light)),
+  DiskRaster(const DiskLight& light, const Vec3& x, int size)
+      : light_(light),
+        frame_(light_frame(light)),
         x_(x),
         size_(size),
         covered_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)) {}
@@ -123,9 +123,9 @@ Color color_at(const DiskRaster& raster, const Vec3& x, const Vec3& n, int colum
 
 }  // namespace
 
-Pixels disk_seen_from(const Scene& scene, const Vec3& x, const Vec3& n, int size) {
-  if (!(scene.light.radius > 0.0) || is_behind(scene.light, x)) return {};
-  DiskRaster raster(scene, x, size);
+Pixels disk_seen_from(const Scene& scene, const DiskLight& light, const Vec3& x, const Vec3& n, int size) {
+  if (!(light.radius > 0.0) || is_behind(light, x)) return {};
+  DiskRaster raster(light, x, size);
   for (const SceneObject& object : scene.objects) {
     if (!object.casts) continue;
     const auto positions = object.mesh.positions();

@@ -10,6 +10,6 @@ namespace penumbra::viewer {
 /// `size` pixels a side, the disk filling most of it; looked at from `x` with unit normal `n`. Light where
 /// nothing is in the way, dark where a caster is, outlined, brown below the horizon; faint outside of the
 /// disk. Empty where x is behind the light or the radius is 0. Cost O(faces + covered pixels).
-Pixels disk_seen_from(const Scene& scene, const Vec3& x, const Vec3& n, int size);
+Pixels disk_seen_from(const Scene& scene, const DiskLight& light, const Vec3& x, const Vec3& n, int size);
 
 }  // namespace penumbra::viewer

@@ -47,22 +47,23 @@ Color cell_color(const ShadowMesh& volume, Color color) {
 
 class Builder {
  public:
-  Builder(const Scene& scene, const Overlays& wanted) : scene_(scene), wanted_(wanted) {
+  Builder(const Scene& scene, const DiskLight& light, const Overlays& wanted)
+      : scene_(scene), light_(light), wanted_(wanted) {
     Bounds bounds = scene.bounds();
-    bounds.add(scene.light.center);
+    bounds.add(light.center);
     out_.origin = bounds.center();
-    out_.bound = bounds.radius() + scene.light.radius;
-    const Vec3 normal = light_frame(scene.light).w;
+    out_.bound = bounds.radius() + light.radius;
+    const Vec3 normal = light_frame(light).w;
     for (const SceneObject& object : scene.objects)
       for (const Vec3& p : object.mesh.positions())
-        out_.reach = std::max(out_.reach, glm::dot(p - scene.light.center, normal));
+        out_.reach = std::max(out_.reach, glm::dot(p - light.center, normal));
   }
 
   OverlayGeometry build() {
     VolumeOptions options{.sheets = wanted_.sheets,
                           .penumbra = wanted_.penumbra,
                           .umbra = wanted_.umbra,
-                          .extrude = apps::extrude_options_for(scene_)};
+                          .extrude = apps::extrude_options_for(scene_, light_)};
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       const SceneObject& object = scene_.objects[i];
       for (const IndexedTriangle& t : object.mesh.triangles())
@@ -96,7 +97,7 @@ class Builder {
   }
 
   void add_caster(const TriangleMesh& mesh, const VolumeOptions& options) {
-    const ShadowVolumes made = build_shadow_volumes(mesh, scene_.light, options);
+    const ShadowVolumes made = build_shadow_volumes(mesh, light_, options);
     const std::vector<FaceClass>& classes = made.classes.faces;
     if (wanted_.faces)
       for (std::size_t f = 0; f < classes.size(); ++f)
@@ -114,6 +115,7 @@ class Builder {
   }
 
   const Scene& scene_;
+  const DiskLight& light_;
   const Overlays& wanted_;
   OverlayGeometry out_;
 };
@@ -125,8 +127,8 @@ bool same_lists(const Overlays& a, const Overlays& b) {
 
 }  // namespace
 
-OverlayGeometry make_overlay_geometry(const Scene& scene, const Overlays& wanted) {
-  return Builder(scene, wanted).build();
+OverlayGeometry make_overlay_geometry(const Scene& scene, const DiskLight& light, const Overlays& wanted) {
+  return Builder(scene, light, wanted).build();
 }
 
 OverlayMaker::~OverlayMaker() {
@@ -134,8 +136,8 @@ OverlayMaker::~OverlayMaker() {
 }
 
 bool OverlayMaker::fits(const State& state) const {
-  return state.model == made_for_.model && state.light == made_for_.light &&
-         same_lists(state.overlays, made_for_.overlays);
+  return state.model == made_for_.model && state.lights == made_for_.lights &&
+         state.selected == made_for_.selected && same_lists(state.overlays, made_for_.overlays);
 }
 
 std::shared_ptr<const OverlayGeometry> OverlayMaker::update(const State& state) {
@@ -144,12 +146,12 @@ std::shared_ptr<const OverlayGeometry> OverlayMaker::update(const State& state) 
   if (!state.overlays.geometry()) return nullptr;
   if (!task_.valid() && !fits(state)) {
     made_for_ = state;
-    task_ =
-        std::async(std::launch::async, [scene = current_scene(state), wanted = state.overlays, wake = wake_] {
-          auto made = std::make_shared<const OverlayGeometry>(make_overlay_geometry(scene, wanted));
-          wake();
-          return made;
-        });
+    task_ = std::async(std::launch::async, [scene = current_scene(state), light = state.light(),
+                                            wanted = state.overlays, wake = wake_] {
+      auto made = std::make_shared<const OverlayGeometry>(make_overlay_geometry(scene, light, wanted));
+      wake();
+      return made;
+    });
   }
   return ready_;
 }

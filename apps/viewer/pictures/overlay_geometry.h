@@ -26,7 +26,7 @@ struct OverlayGeometry {
 };
 
 /// Cost that of extrusion where sheets or volumes are wanted.
-OverlayGeometry make_overlay_geometry(const Scene& scene, const Overlays& wanted);
+OverlayGeometry make_overlay_geometry(const Scene& scene, const DiskLight& light, const Overlays& wanted);
 
 /// Makes overlays on a thread of its own, the newest wish last; `wake` is called when one is ready.
 class OverlayMaker {

@@ -24,7 +24,7 @@ void label(ImDrawList& list, ImVec2 at, const std::string& text) {
 }
 
 std::string title_of(const Side& side) {
-  std::string text = name_of(side.options.method);
+  std::string text = side.options.method;
   if (side.rays) text += ", " + std::to_string(side.rays) + " rays";
   return text;
 }
@@ -44,6 +44,10 @@ void draw_scale(ImDrawList& list, float bottom, double scale) {
   label(list, {200.0f, bottom - 26.0f}, text);
 }
 
+const std::vector<TexturePicture>& textures_of(const Frame& frame) {
+  return frame.sides.front().result->lights[frame.selected].textures;
+}
+
 }  // namespace
 
 void PictureView::update(const State& state, std::shared_ptr<const Frame> frame) {
@@ -55,11 +59,11 @@ void PictureView::update(const State& state, std::shared_ptr<const Frame> frame)
   scale_ = state.difference_scale;
   shown_ = state.shown;
   if (!frame_ || frame_->sides.empty()) return;
-  left_.upload(picture_of(frame_->sides.front(), shown_, exposure_));
-  textures_.upload(mosaic_of(frame_->sides.front().result->textures, kTextureSide));
+  left_.upload(picture_of(*frame_, frame_->sides.front(), shown_, exposure_));
+  textures_.upload(mosaic_of(textures_of(*frame_), kTextureSide));
   if (frame_->sides.size() < 2) return;
-  right_.upload(picture_of(frame_->sides.back(), shown_, exposure_));
-  difference_.upload(difference_of(frame_->sides.front(), frame_->sides.back(), scale_));
+  right_.upload(picture_of(*frame_, frame_->sides.back(), shown_, exposure_));
+  difference_.upload(difference_of(*frame_, scale_));
 }
 
 void PictureView::draw_picture(const State& state) const {
@@ -92,7 +96,7 @@ void PictureView::draw_picture(const State& state) const {
 // At the lower right, each with its name.
 void PictureView::draw_textures(ImDrawList& list, float width, float height) const {
   if (!frame_ || frame_->sides.empty()) return;
-  const std::vector<TexturePicture>& all = frame_->sides.front().result->textures;
+  const std::vector<TexturePicture>& all = textures_of(*frame_);
   if (all.empty())
     return label(list, {width - 330, height - 24}, "textures: with dbuffer or occlusion-textures");
   const int count = static_cast<int>(all.size()), columns = std::min(4, count),
@@ -115,7 +119,7 @@ void PictureView::draw_marks(const State& state, const Pointer& pointer, bool se
   const auto width = static_cast<float>(state.left.width), height = static_cast<float>(state.left.height);
   list.PushClipRect({0, 0}, {width, height});
   if (state.overlays.light)
-    draw_light(list, state.light, Projection(state.camera, state.left.width, state.left.height),
+    draw_light(list, state.light(), Projection(state.camera, state.left.width, state.left.height),
                pointer.handle());
   if (frame_ && frame_->sides.size() == 2 && state.arrangement == Arrangement::kSplit) {
     const auto x = static_cast<float>(std::round(state.divider * state.left.width));

@@ -6,8 +6,8 @@
 #include <chrono>
 
 #include "apps/viewer/pictures/disk_view.h"
-#include "render/rays/reference.h"
-#include "render/shading/shading.h"
+#include "render/light/light_integrals.h"
+#include "render/rays/ray_scene.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -15,14 +15,17 @@ namespace {
 constexpr int kSide = 192;
 constexpr int kRays = 4'096;
 
-ProbeAnswer answer_for(const Scene& scene, const RayScene& rays, const SurfaceBuffer& point) {
+ProbeAnswer answer_for(const Scene& scene, const Casters& casters, const LightShape& light,
+                       const SurfaceBuffer& point) {
   const Vec3 &x = point.position.front(), &n = point.normal.front();
-  const ReferenceResult traced =
-      trace_reference(scene, rays, point, std::array<std::uint32_t, 1>{0}, {.samples = kRays});
-  const Vec3 start = x + n * (kRayOffset / rays.frame().scale);  // where the rays start
-  return {.disk = disk_seen_from(scene, start, n, kSide),
+  const MethodResult traced =
+      visibility(casters, light, point.receivers(),
+                 {.method = "reference", .options = {{"samples", std::uint64_t{kRays}}}});
+  const DiskLight disk = disk_around(light);
+  const Vec3 start = x + n * (kRayOffset / ray_frame(scene, light).scale);  // where the rays start
+  return {.disk = disk_seen_from(scene, disk, start, n, kSide),
           .by_rays = double{traced.visibility.front()},
-          .above_horizon = fraction_above_horizon(scene.light, x, n)};
+          .above_horizon = fraction_above_horizon(area_light(light), x, n)};
 }
 
 }  // namespace
@@ -36,32 +39,29 @@ void ProbeView::ask(const State& state, const Frame& frame) {
   if (task_.valid() || (asked_frame_ == frame.number && asked_pixel_ == place_->pixel)) return;
   asked_frame_ = frame.number;
   asked_pixel_ = place_->pixel;
-  const bool same_rays = rays_ && rays_for_.model == state.model &&
-                         rays_for_.light.center == frame.light.center &&
-                         rays_for_.light.radius == frame.light.radius;
   Scene scene = current_scene(state);
-  scene.light = frame.light;
-  rays_for_ = state;
-  rays_for_.light = frame.light;
+  const bool same = casters_ && casters_for_ == state.model;
+  casters_for_ = state.model;
   SurfaceBuffer point{.width = 1,
                       .height = 1,
                       .object = {place_->object},
                       .face = {place_->face},
                       .position = {place_->position},
                       .normal = {place_->normal}};
-  task_ = std::async(std::launch::async, [scene = std::move(scene), point = std::move(point),
-                                          rays = same_rays ? rays_ : nullptr, wake = wake_] {
-    auto used = rays ? rays : std::make_shared<const RayScene>(scene, 0);
-    std::pair result(used, answer_for(scene, *used, point));
-    wake();
-    return result;
-  });
+  task_ = std::async(std::launch::async,
+                     [scene = std::move(scene), light = frame.lights[frame.selected].shape,
+                      point = std::move(point), casters = same ? casters_ : nullptr, wake = wake_] {
+                       auto used = casters ? casters : std::make_shared<const Casters>(scene.objects);
+                       std::pair result(used, answer_for(scene, *used, light, point));
+                       wake();
+                       return result;
+                     });
 }
 
 void ProbeView::draw(const State& state, const Frame* frame, const Pointer& pointer) {
   if (task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    auto [rays, answer] = task_.get();
-    rays_ = std::move(rays);
+    auto [casters, answer] = task_.get();
+    casters_ = std::move(casters);
     texture_.upload(answer.disk);
     answer_ = std::move(answer);
   }
@@ -92,8 +92,8 @@ void ProbeView::write(const State& state, const Frame& frame) const {
   ImGui::Text("%s, face %u", object.name.c_str(), place_->face);
   ImGui::Text("at %.3f %.3f %.3f", place_->position.x, place_->position.y, place_->position.z);
   for (const Side& side : frame.sides)
-    ImGui::Text("V by %s: %.4f", name_of(side.options.method),
-                double{side.result->image.at("visibility")[place_->pixel]});
+    ImGui::Text("V by %s: %.4f", side.options.method.c_str(),
+                double{side.result->image.at(frame.channel("visibility"))[place_->pixel]});
   if (!answer_) return ImGui::TextUnformatted("tracing rays");
   ImGui::Text("V by %d rays: %.4f", kRays, answer_->by_rays);
   ImGui::Text("above the horizon: %.4f", answer_->above_horizon);

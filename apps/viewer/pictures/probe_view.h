@@ -8,7 +8,7 @@
 #include "apps/viewer/handles/pointer.h"
 #include "apps/viewer/pictures/picture_texture.h"
 #include "apps/viewer/state/state.h"
-#include "render/rays/ray_scene.h"
+#include "penumbra/render/visibility.h"
 
 namespace penumbra::viewer {
 
@@ -40,11 +40,11 @@ class ProbeView {
   void (*wake_)();
   std::optional<PicturePoint> at_;
   std::optional<Place> place_;
-  std::shared_ptr<const RayScene> rays_;  ///< for light and model of rays_for_
-  State rays_for_;
+  std::shared_ptr<const Casters> casters_;  ///< of the model casters_for_
+  std::shared_ptr<const Scene> casters_for_;
   std::uint64_t asked_frame_ = 0;
   std::optional<std::size_t> asked_pixel_;
-  std::future<std::pair<std::shared_ptr<const RayScene>, ProbeAnswer>> task_;
+  std::future<std::pair<std::shared_ptr<const Casters>, ProbeAnswer>> task_;
   std::optional<ProbeAnswer> answer_;
 };
 

@@ -40,8 +40,8 @@ struct Overlays {
 struct State {
   std::filesystem::path path;          ///< the scene or mesh it was loaded from
   std::shared_ptr<const Scene> model;  ///< as loaded; never null once something is open
-  DiskLight light;
-  Vec3 radiance{10.0};
+  std::vector<Light> lights;           ///< as they are now
+  std::size_t selected = 0;            ///< the one whose handles, probe and overlays are shown
   Camera camera;
   RenderOptions left, right;  ///< right: the second method of split and difference
   Arrangement arrangement = Arrangement::kSingle;
@@ -54,9 +54,13 @@ struct State {
   int revision = 0;  ///< grows whenever a method or a setting changes
 
   bool two_sided() const { return arrangement != Arrangement::kSingle; }
+  /// The selected light as a disk: itself, or the one around a rectangle.
+  DiskLight light() const { return disk_around(lights[selected].shape); }
+  /// Moves, tilts and resizes the selected light as this disk says; a rectangle keeps its proportions.
+  void set_light(const DiskLight& disk);
 };
 
-/// The loaded scene with the light and the camera of the state.
+/// The loaded scene with the lights and the camera of the state.
 Scene current_scene(const State& state);
 
 /// A state that shows `loaded`, x-viewer of its file included. Settings that x-viewer does not name are those

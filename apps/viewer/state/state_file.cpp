@@ -1,5 +1,6 @@
 #include "apps/viewer/state/state_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <utility>
@@ -37,13 +38,14 @@ nlohmann::json to_json(const Vec3& v) {
 }
 
 nlohmann::json to_json(const RenderOptions& options) {
-  nlohmann::json json = {{"method", name_of(options.method)}};
-  for (const Setting& each : settings_of(options)) json[each.name] = each.value;
+  nlohmann::json json = {{"method", options.method}};
+  for (const OptionSchema& option : method_named(options.method).options)
+    json[option.name] = value_of(options, option);
   return json;
 }
 
 void read(const nlohmann::json& json, RenderOptions& options) {
-  options.method = method_of(json.at("method").get<std::string>());
+  options.method = method_named(json.at("method").get<std::string>()).name;
   for (const auto& [name, value] : json.items())
     if (name != "method") set(options, name, value.get<std::string>());
 }
@@ -55,7 +57,8 @@ nlohmann::json viewer_settings(const State& state) {
                          {"exposure", state.exposure},
                          {"difference_scale", state.difference_scale},
                          {"cut", state.overlays.cut},
-                         {"probe", state.probe}};
+                         {"probe", state.probe},
+                         {"light", state.selected}};
   for (const auto& [value, name] : kArrangements)
     if (value == state.arrangement) json["arrangement"] = name;
   for (const auto& [value, name] : kShown)
@@ -80,8 +83,21 @@ nlohmann::json floor_entry(const std::filesystem::path& path, const SceneObject&
   return {{"mesh", name}, {"albedo", to_json(floor.albedo)}, {"casts", floor.casts}};
 }
 
+void write_light(const Light& light, nlohmann::json& json) {
+  const DiskLight disk = disk_around(light.shape);
+  json["center"] = to_json(disk.center);
+  json["normal"] = to_json(disk.normal);
+  json["radiance"] = to_json(light.radiance);
+  if (const auto* rectangle = std::get_if<RectangleLight>(&light.shape)) {
+    json["tangent"] = to_json(rectangle->tangent);
+    json["half_extents"] = {rectangle->half_extents.x, rectangle->half_extents.y};
+  } else {
+    json["radius"] = disk.radius;
+  }
+}
+
 nlohmann::json scene_document(const std::filesystem::path& path, const State& state) {
-  nlohmann::json document = state.model->document;
+  nlohmann::json document = nlohmann::json::parse(state.model->document);
   const bool bare = state.model->objects.size() != document["objects"].size();
   const std::filesystem::path folder = bare ? std::filesystem::path() : state.path.parent_path();
   for (nlohmann::json& object : document["objects"])
@@ -90,11 +106,7 @@ nlohmann::json scene_document(const std::filesystem::path& path, const State& st
     document["objects"].insert(document["objects"].begin(), floor_entry(path, state.model->objects.front()));
     document.erase("x-made-for");
   }
-  nlohmann::json& light = document["lights"][0];
-  light["center"] = to_json(state.light.center);
-  light["normal"] = to_json(state.light.normal);
-  light["radius"] = state.light.radius;
-  light["radiance"] = to_json(state.radiance);
+  for (std::size_t i = 0; i < state.lights.size(); ++i) write_light(state.lights[i], document["lights"][i]);
   document["camera"] = {{"eye", to_json(state.camera.eye)},
                         {"target", to_json(state.camera.target)},
                         {"up", to_json(state.camera.up)},
@@ -130,6 +142,7 @@ void read_viewer_settings(const nlohmann::json& settings, State& state) {
   state.difference_scale = settings.value("difference_scale", state.difference_scale);
   state.overlays.cut = settings.value("cut", state.overlays.cut);
   state.probe = settings.value("probe", state.probe);
+  state.selected = std::min(settings.value("light", state.selected), state.lights.size() - 1);
   const nlohmann::json overlays = settings.value("overlays", nlohmann::json::object());
   for (const auto& [name, flag] : kFlags) state.overlays.*flag = overlays.value(name, state.overlays.*flag);
 }
@@ -137,8 +150,7 @@ void read_viewer_settings(const nlohmann::json& settings, State& state) {
 std::string headless_command(const std::filesystem::path& scene, const State& state) {
   char size[64];
   std::snprintf(size, sizeof size, " --size %dx%d", state.left.width, state.left.height);
-  std::string command =
-      "penumbra render " + quoted(scene.string()) + " --method " + name_of(state.left.method) + size;
+  std::string command = "penumbra render " + quoted(scene.string()) + " --method " + state.left.method + size;
   command += settings_arguments(state.left);
   if (state.exposure != 0.0) command += " --exposure " + nlohmann::json(state.exposure).dump();
   return command + " --output " + quoted(scene.stem().string() + ".png");

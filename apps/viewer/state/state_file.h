@@ -1,6 +1,8 @@
 // Saving a state as a scene file that `penumbra render` reads like any other.
 #pragma once
 
+#include <nlohmann/json.hpp>
+
 #include "apps/viewer/state/state.h"
 
 namespace penumbra::viewer {

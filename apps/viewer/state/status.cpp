@@ -12,7 +12,7 @@ nlohmann::json to_json(const Vec3& v) {
 
 nlohmann::json handle_places(const State& state) {
   const Projection projection(state.camera, state.left.width, state.left.height);
-  const HandleShape shape = handle_shape(state.light, projection);
+  const HandleShape shape = handle_shape(state.light(), projection);
   nlohmann::json places = nlohmann::json::object();
   const auto add = [&](Handle handle, const Vec3& p) {
     if (const auto at = projection.project(p)) places[name_of(handle)] = {at->x, at->y};
@@ -28,13 +28,14 @@ nlohmann::json handle_places(const State& state) {
 
 nlohmann::json report(const StatusInput& input) {
   const State& state = input.state;
+  const DiskLight light = state.light();
   nlohmann::json json = {
       {"settled", input.settled},
       {"holding", input.holding},
       {"message", input.message},
       {"file", state.path.string()},
-      {"method", name_of(state.left.method)},
-      {"against", name_of(state.right.method)},
+      {"method", state.left.method},
+      {"against", state.right.method},
       {"arrangement", static_cast<int>(state.arrangement)},
       {"divider", state.divider},
       {"shown", static_cast<int>(state.shown)},
@@ -43,9 +44,9 @@ nlohmann::json report(const StatusInput& input) {
       {"minimised", input.minimised},
       {"picture", {state.left.width, state.left.height}},
       {"light",
-       {{"center", to_json(state.light.center)},
-        {"normal", to_json(state.light.normal)},
-        {"radius", state.light.radius}}},
+       {{"center", to_json(light.center)}, {"normal", to_json(light.normal)}, {"radius", light.radius}}},
+      {"lights", state.lights.size()},
+      {"selected", state.selected},
       {"camera", {{"eye", to_json(state.camera.eye)}, {"target", to_json(state.camera.target)}}},
       {"handles", handle_places(state)}};
   for (const auto& [name, at] : input.places) json["widgets"][name] = {at.x, at.y};

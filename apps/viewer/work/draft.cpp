@@ -7,18 +7,26 @@ namespace {
 
 constexpr double kBudget = 36.0;  // ms: leaves 14 of 50 to the window
 constexpr int kCoarsest = 6;
-constexpr int kDraftRays = 16;
-constexpr int kDraftTexels = 256;
+
+/// The option's value for drafts, unless what is chosen costs less already.
+OptionValue cheaper(const OptionSchema& option, const RenderOptions& options) {
+  const auto given = options.options.find(option.name);
+  const OptionValue now = given == options.options.end() ? option.usual : given->second;
+  const auto* number = std::get_if<std::uint64_t>(&now);
+  const auto* most = std::get_if<std::uint64_t>(&*option.draft);
+  return number && most && *number > 0 && *number < *most ? now : *option.draft;
+}
 
 }  // namespace
 
 RenderOptions DraftPolicy::draft_of(const RenderOptions& options) const {
   RenderOptions draft = options;
-  draft.reference.samples = std::min(options.reference.samples, reduction_ > 2 ? kDraftRays / 4 : kDraftRays);
+  draft.draft = true;
+  for (const OptionSchema& option : method_named(options.method).options)
+    if (option.draft) draft.options[option.name] = cheaper(option, options);
   if (reduction_ == 1) return draft;
   draft.width = (options.width + reduction_ - 1) / reduction_;
   draft.height = (options.height + reduction_ - 1) / reduction_;
-  if (options.d_buffer.size == 0 || options.d_buffer.size > kDraftTexels) draft.d_buffer.size = kDraftTexels;
   return draft;
 }
 

@@ -17,12 +17,13 @@ constexpr int kPictures = 24;  // of a sequence
 
 std::string export_volumes(const std::filesystem::path& folder, const State& state) {
   const Scene scene = current_scene(state);
-  VolumeOptions options{.sheets = true, .extrude = apps::extrude_options_for(scene)};
+  const DiskLight& light = require_disk(scene.lights[state.selected].shape, "exporting volumes");
+  VolumeOptions options{.sheets = true, .extrude = apps::extrude_options_for(scene, light)};
   std::vector<ShadowMesh> sheets, penumbra, umbra;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (!scene.objects[i].casts) continue;
     options.extrude.object = static_cast<std::uint32_t>(i);
-    ShadowVolumes made = build_shadow_volumes(scene.objects[i].mesh, scene.light, options);
+    ShadowVolumes made = build_shadow_volumes(scene.objects[i].mesh, light, options);
     sheets.push_back(std::move(made.sheets));
     penumbra.push_back(std::move(made.penumbra));
     umbra.push_back(std::move(made.umbra));
@@ -35,7 +36,7 @@ std::string export_volumes(const std::filesystem::path& folder, const State& sta
 }
 
 DiskLight light_on_path(const State& state, double t) {
-  const DiskLight &from = state.model->light, &to = state.light;
+  const DiskLight from = disk_around(state.model->lights[state.selected].shape), to = state.light();
   if (t >= 1.0) return to;
   DiskLight light = from;
   light.center = (1.0 - t) * from.center + t * to.center;
@@ -47,15 +48,14 @@ DiskLight light_on_path(const State& state, double t) {
 }
 
 std::string export_sequence(const std::filesystem::path& folder, const State& state) {
-  Scene scene = current_scene(state);
-  Renderer renderer(scene, state.left);
+  Renderer renderer(current_scene(state));
   for (int i = 0; i < kPictures; ++i) {
-    scene.light = light_on_path(state, static_cast<double>(i) / (kPictures - 1));
-    renderer.follow_light(state.left);
+    State moved = state;
+    moved.set_light(light_on_path(state, static_cast<double>(i) / (kPictures - 1)));
+    renderer.set_light(state.selected, moved.lights[state.selected]);
     char end[32];
     std::snprintf(end, sizeof end, "-path-%03d.png", i + 1);
-    write_png(folder / (state.path.stem().string() + end), renderer.render_frame(state.left).image,
-              state.exposure);
+    write_png(folder / (state.path.stem().string() + end), renderer.render(state.left).image, state.exposure);
   }
   return "saved " + std::to_string(kPictures) + " pictures " +
          (folder / (state.path.stem().string() + "-path-*.png")).string();

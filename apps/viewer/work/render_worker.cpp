@@ -6,7 +6,6 @@
 #include <exception>
 
 #include "penumbra/mesh/error.h"
-#include "render/shading/shading.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -18,7 +17,12 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 bool is_reference(const RenderOptions& options) {
-  return options.method == Method::kReference;
+  return method_named(options.method).converges;
+}
+
+int samples_of(const RenderOptions& options) {
+  return static_cast<int>(
+      integer_of(completed(method_named(options.method).options, options.options), "samples"));
 }
 
 bool has_reference(const std::vector<RenderOptions>& sides) {
@@ -64,7 +68,7 @@ std::optional<ErrorFigures> error_of(const Frame& frame, const Accumulator& refe
       if (surface.hit(i)) seen.push_back(i);
     const std::vector<float> first = reference.half(0), second = reference.half(1);
     const std::vector<std::uint32_t> judged = true_penumbra(first, second, seen);
-    return error_figures(side.result->image.at("visibility"), first, second, judged);
+    return error_figures(side.result->image.at(frame.channel("visibility")), first, second, judged);
   }
   return std::nullopt;
 }
@@ -137,29 +141,23 @@ void RenderWorker::run() {
 Frame RenderWorker::first_frame(const RenderJob& job) const {
   Frame frame;
   frame.number = job.number;
-  frame.light = job.light;
+  frame.lights = job.lights;
+  frame.selected = job.selected;
   frame.camera = job.camera;
   return frame;
 }
 
 void RenderWorker::adopt(const RenderJob& job) {
-  const bool other_model = model_ != job.model;
-  if (other_model) {
-    renderer_.reset();
-    scene_ = *job.model;
+  if (model_ != job.model || !renderer_) {
+    renderer_.reset();  // before the new one takes memory
+    Scene scene = *job.model;
+    scene.lights = job.lights;
+    scene.camera = job.camera;
+    renderer_ = std::make_unique<Renderer>(std::move(scene));
     model_ = job.model;
   }
-  scene_.light = job.light;
-  scene_.radiance = job.radiance;
-  scene_.camera = job.camera;
-  // A draft does without the last digits that the rays' frame gives.
-  const bool follows = !renderer_ || (!job.moving && followed_ != job.light);
-  if (!follows) return;
-  if (renderer_)
-    renderer_->follow_light(job.sides.front());
-  else
-    renderer_ = std::make_unique<Renderer>(scene_, job.sides.front());
-  followed_ = job.light;
+  for (std::size_t i = 0; i < job.lights.size(); ++i) renderer_->set_light(i, job.lights[i]);
+  renderer_->set_camera(job.camera);
 }
 
 void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOptions>& options,
@@ -169,10 +167,9 @@ void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOp
   frame.sides.clear();
   for (RenderOptions each : options) {
     each.progress = [this](double) { return !outdated(); };
-    each.reuse = true;
-    Side side{.result = std::make_shared<const RenderResult>(renderer_->render_frame(each)),
+    Side side{.result = std::make_shared<const RenderResult>(renderer_->render(each)),
               .options = each,
-              .rays = is_reference(each) ? each.reference.samples : 0};
+              .rays = is_reference(each) ? samples_of(each) : 0};
     frame.sides.push_back(std::move(side));
   }
   frame.milliseconds = milliseconds_since(start);
@@ -190,7 +187,8 @@ void RenderWorker::answer(const RenderJob& job) {
   }
   if (has_reference(options)) {  // something to look at until all rays are traced
     for (RenderOptions& each : options)
-      each.reference.samples = std::min(each.reference.samples, kPreviewRays);
+      if (is_reference(each))
+        each.options["samples"] = std::uint64_t(std::min(samples_of(each), kPreviewRays));
     render_sides(job, options, frame);
     frame.refining = true;
     publish(frame);
@@ -203,27 +201,32 @@ void RenderWorker::answer(const RenderJob& job) {
 }
 
 void RenderWorker::refine(const RenderJob& job, Frame frame) {
-  Accumulator reference;
   const auto first = std::find_if(frame.sides.begin(), frame.sides.end(),
                                   [](const Side& side) { return is_reference(side.options); });
   RenderOptions options = first->options;
-  options.reuse = true;
-  const std::uint64_t seed = options.reference.seed;
-  reference.add(first->result->image.at("visibility"));
+  const std::uint64_t seed = integer_of(first->result->options, "seed");
+  std::vector<Accumulator> references(frame.lights.size());
+  const auto add = [&](const RenderResult& result) {
+    for (std::size_t k = 0; k < references.size(); ++k) references[k].add(result.lights[k].visibility);
+  };
+  add(*first->result);
   while (frame.refining) {
-    options.reference.seed = seed + static_cast<std::uint64_t>(reference.passes());
-    RenderResult pass = renderer_->render_frame(options);
-    reference.add(pass.image.at("visibility"));
-    pass.image = shade(scene_, pass.surface, reference.mean(), options.threads);
+    const int passes = references.front().passes();
+    options.options["seed"] = seed + static_cast<std::uint64_t>(passes);
+    RenderResult pass = renderer_->render(options);
+    add(pass);
+    std::vector<std::vector<float>> means;
+    for (const Accumulator& reference : references) means.push_back(reference.mean());
+    pass.image = renderer_->shade_again(means);
     const auto result = std::make_shared<const RenderResult>(std::move(pass));
-    const int rays = options.reference.samples * reference.passes();
+    const int rays = samples_of(options) * (passes + 1);
     for (Side& side : frame.sides)
       if (is_reference(side.options)) {
         side.result = result;
         side.rays = rays;
       }
     frame.refining = rays < job.refine_to;
-    frame.error = error_of(frame, reference);
+    frame.error = error_of(frame, references[frame.selected]);
     if (outdated()) return;
     publish(frame);
   }

@@ -20,9 +20,9 @@ namespace penumbra::viewer {
 
 struct RenderJob {
   std::uint64_t number = 0;            ///< grows with each wish
-  std::shared_ptr<const Scene> model;  ///< objects; its light and camera are not used
-  DiskLight light;
-  Vec3 radiance{10.0};
+  std::shared_ptr<const Scene> model;  ///< objects; its lights and camera are not used
+  std::vector<Light> lights;
+  std::size_t selected = 0;  ///< the light whose visibility is compared
   Camera camera;
   std::vector<RenderOptions> sides;  ///< one or two pictures
   bool moving = false;               ///< a draft will do
@@ -42,11 +42,17 @@ struct Frame {
   int reduction = 1;          ///< of a draft
   bool refining = false;      ///< more rays are on their way
   double milliseconds = 0.0;  ///< wall clock, all sides, set-up included
-  DiskLight light;
+  std::vector<Light> lights;
+  std::size_t selected = 0;
   Camera camera;
   std::vector<Side> sides;
   std::optional<ErrorFigures> error;  ///< of the side that is no reference, over true penumbra
   std::string trouble;                ///< why there are no sides
+
+  /// The channel of the selected light: "visibility" or, of several, "visibility.NAME".
+  std::string channel(const std::string& name) const {
+    return lights.size() > 1 ? name + "." + lights[selected].name : name;
+  }
 };
 
 class RenderWorker {
@@ -64,6 +70,7 @@ class RenderWorker {
  private:
   void run();
   void answer(const RenderJob& job);
+  /// A renderer that has the job's scene.
   void adopt(const RenderJob& job);
   Frame first_frame(const RenderJob& job) const;
   void render_sides(const RenderJob& job, const std::vector<RenderOptions>& options, Frame& frame);
@@ -80,9 +87,7 @@ class RenderWorker {
 
   // Only the thread's:
   std::shared_ptr<const Scene> model_;
-  Scene scene_;
   std::unique_ptr<Renderer> renderer_;
-  DiskLight followed_;  ///< the light that the renderer's rays are framed for
   DraftPolicy draft_;
   std::thread thread_;
 };

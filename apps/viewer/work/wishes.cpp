@@ -7,7 +7,7 @@ constexpr auto kStill = std::chrono::milliseconds(150);
 constexpr int kRefineTo = 8'192;
 
 bool same_picture(const State& a, const State& b) {
-  return a.model == b.model && a.light == b.light && a.radiance == b.radiance &&
+  return a.model == b.model && a.lights == b.lights && a.selected == b.selected &&
          a.camera.eye == b.camera.eye && a.camera.target == b.camera.target && a.camera.up == b.camera.up &&
          a.camera.fov_y_degrees == b.camera.fov_y_degrees && a.left.width == b.left.width &&
          a.left.height == b.left.height && a.two_sided() == b.two_sided() && a.revision == b.revision &&
@@ -41,8 +41,8 @@ void Wishes::ask(const State& state, bool draft) {
   moving_ = draft;
   RenderJob job{.number = ++asked_,
                 .model = state.model,
-                .light = state.light,
-                .radiance = state.radiance,
+                .lights = state.lights,
+                .selected = state.selected,
                 .camera = state.camera,
                 .sides = {state.left},
                 .moving = draft,

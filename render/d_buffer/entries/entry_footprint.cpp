@@ -15,6 +15,12 @@ Uvw project(const Vec3& p) {
 
 constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
+/// Accuracy. Boundaries are drawn so many times as far as rays found them to reach, since rays probe a few points only
+/// (Resampler.LessensTheError, DBufferScenes).
+constexpr double kMargin = 1.05;
+/// Accuracy: the point of a sliver moves outward by at most so many dilations, lest it hide its neighbors.
+constexpr double kLongestMiter = 3.0;
+
 }  // namespace
 
 LightSpace::LightSpace(const DiskLight& light, double scale_factor)
@@ -41,7 +47,7 @@ VertexId EntryFootprints::end_of(const SupportFacet& f) const {
 std::optional<EntryFootprints::Facet> EntryFootprints::facet(std::uint32_t i, float reach,
                                                              double far_weight) const {
   const SupportFacet& f = supports_.facets[i];
-  Vec3 pa = local(begin_of(f)), pb = local(end_of(f));
+  Vec3 pa = in_light_frame(begin_of(f)), pb = in_light_frame(end_of(f));
   if (!cut(pa, pb)) return std::nullopt;
   const Uvw a = project(pa), b = project(pb);
   const glm::dvec2 downhill{-std::cos(f.rim_angle), -std::sin(f.rim_angle)};
@@ -65,7 +71,7 @@ std::optional<EntryFootprints::Facet> EntryFootprints::facet(std::uint32_t i, fl
 
 std::optional<EntryFootprints::Cone> EntryFootprints::cone(const ConeSector& cone, float reach,
                                                            double far_weight) const {
-  const Vec3 p = local(cone.vertex);
+  const Vec3 p = in_light_frame(cone.vertex);
   if (p.z <= options_.near_depth) return std::nullopt;
   const Uvw apex = project(p);
   return Cone{apex, extent(apex.w, reach, far_weight) + dilation(apex.uv)};
@@ -75,7 +81,7 @@ std::optional<std::array<Uvw, 3>> EntryFootprints::gap(const GapFace& gap) const
   const IndexedTriangle& t = mesh_.triangles()[index(gap.face)];
   std::array<Uvw, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 p = local(VertexId{t[k]});
+    const Vec3 p = in_light_frame(VertexId{t[k]});
     if (p.z <= options_.near_depth) return std::nullopt;
     corners[k] = project(p);
   }
@@ -83,7 +89,7 @@ std::optional<std::array<Uvw, 3>> EntryFootprints::gap(const GapFace& gap) const
   return corners;
 }
 
-/// Moves a triangle's sides outward by the dilation; the points of slivers by at most three times as much.
+/// Moves a triangle's sides outward by the dilation; the points of slivers by at most kLongestMiter times as much.
 void EntryFootprints::grow(std::array<Uvw, 3>& corners) const {
   glm::dvec2 out[3];  // of the side from corner k to the next
   const auto next = [](std::size_t k) { return (k + 1) % 3; };
@@ -97,9 +103,10 @@ void EntryFootprints::grow(std::array<Uvw, 3>& corners) const {
   const double turn = glm::dot(out[0], corners[0].uv - middle) < 0.0 ? -1.0 : 1.0;
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::dvec2 sum = turn * (out[k] + out[next(next(k))]);
-    const double least = 2.0 / 3.0;  // of |sum|: where the miter is three times the dilation
+    const double least = 2.0 / kLongestMiter;  // of |sum|: where the miter is as long as it may be
     const double size = std::max(glm::length(sum), 1e-9);
-    corners[k].uv += dilation(corners[k].uv) * (size > least ? 2.0 / (size * size) : 3.0 / size) * sum;
+    corners[k].uv +=
+        dilation(corners[k].uv) * (size > least ? 2.0 / (size * size) : kLongestMiter / size) * sum;
   }
 }
 
@@ -112,7 +119,6 @@ double EntryFootprints::dilation(const glm::dvec2& uv) const {
 /// How far in (u, v) the boundary extends from a point at 1/z = w before it meets a surface or the farthest
 /// receiver.
 double EntryFootprints::extent(double w, float reach, double far_weight) const {
-  constexpr double kMargin = 1.05;  // the reach was probed at a few points only
   const double far = std::max(options_.far_weight, far_weight);
   return space_.radius * std::max(0.0, w - std::max(far, w / (kMargin * static_cast<double>(reach))));
 }

@@ -1,8 +1,9 @@
-// What facets, cone sectors and gap faces cover as seen from the light's center.
+// D-buffer step 4: what facets, cone sectors and gap faces cover, seen from the light's center.
 //
-// In (u, v, w) = (x/z, y/z, 1/z) of the light's frame the plane that touches the disk of radius r at rim
-// angle φ is w = (cos φ u + sin φ v + κ)/r, of slope 1/r for every edge, and the boundary at a vertex is a
-// circular cone of that slope.
+// In: a caster's supports in world space. Out: polygons in (u, v, w) = (x/z, y/z, 1/z) of the light's frame, dilated so
+// that every texel they touch is drawn. There the plane that touches the disk of radius r at rim angle φ is
+// w = (cos φ u + sin φ v + κ)/r: it has the slope 1/r for every edge. The boundary at a vertex is a circular cone of that
+// slope, with its apex at the vertex.
 #pragma once
 
 #include <array>
@@ -17,14 +18,16 @@
 
 namespace penumbra::detail {
 
-/// A change from world to the light's frame: axes u, v, w of the light, origin its center, lengths times a
-/// power of two.
+/// World → the light's frame: axes u, v, w of the light, origin its center, lengths times a power of two. All that the
+/// D-buffer draws is in this frame.
 struct LightSpace {
   LightSpace(const DiskLight& light, double scale_factor);
   Vec3 to_light(const Vec3& world) const;
   LightFrame axes;
   Vec3 center;
-  double scale, radius;  ///< radius: of the disk, in this space
+  double scale;
+  /// Of the disk, in the light's frame.
+  double radius;
 };
 
 /// A point in (u, v, w).
@@ -34,11 +37,16 @@ struct Uvw {
 };
 
 struct FootprintOptions {
-  double near_depth;   ///< edges are cut at this depth
-  double far_weight;   ///< 1/z of the farthest receiver: boundaries end there
-  double dilation;     ///< in (u, v): boundaries grow by this to all sides, to reach every texel they touch
-  bool grows_with_uv;  ///< times 1 + |uv|, as the texels of a hemicube do
-  double narrow;       ///< in (u, v): of what is no wider than this one ray tells the reach as well as three
+  /// Edges are cut at this z.
+  double near_depth;
+  /// 1/z of the farthest receiver: boundaries end there.
+  double far_weight;
+  /// In (u, v): polygons grow by this to all sides, so that every texel they touch is drawn.
+  double dilation;
+  /// The dilation is multiplied by 1 + |uv|, as the texels of a hemicube grow.
+  bool grows_with_uv;
+  /// In (u, v): of what is no wider than this one ray tells the reach as well as three.
+  double narrow;
 };
 
 /// Footprints of one caster's boundary. Refers to its arguments.
@@ -48,7 +56,8 @@ class EntryFootprints {
                   const FootprintOptions& options)
       : mesh_(mesh), space_(space), supports_(supports), options_(options) {}
 
-  Vec3 local(VertexId v) const { return space_.to_light(mesh_.position(v)); }
+  /// In the light's frame.
+  Vec3 in_light_frame(VertexId v) const { return space_.to_light(mesh_.position(v)); }
   VertexId begin_of(const SupportFacet& f) const;
   VertexId end_of(const SupportFacet& f) const;
 
@@ -59,10 +68,11 @@ class EntryFootprints {
     std::array<Uvw, 4> corners;
     double from_weight, to_weight;
   };
-  /// `far_weight` is used where it is greater than the options'.
+  /// Of facet i of the supports. `reach`: as from facet_reach.h. The facet ends at 1/z = `far_weight` if that is greater
+  /// than the options'.
   std::optional<Facet> facet(std::uint32_t i, float reach, double far_weight) const;
 
-  /// Where the cone's circle lies; it slopes down from the apex.
+  /// The circle that the whole cone covers; 1/z falls from the apex to all sides.
   struct Cone {
     Uvw apex;
     double radius;
@@ -97,8 +107,8 @@ inline UvBounds uv_bounds_of(const EntryFootprints::Cone& cone) {
   return {cone.apex.uv - cone.radius, cone.apex.uv + cone.radius};
 }
 
-/// How many rays it takes to find the reach of each facet (see facet_reach.h): 0 where no receiver would read
-/// it, nor a gap face beside it, even if nothing cut it short. Cost O(facets + gaps), on all cores.
+/// How many rays it takes to find the reach of each facet (see facet_reach.h): 0 to 3. 0 where no receiver would read the
+/// facet or a gap face beside it, even if nothing cut it short. Cost O(facets + gaps), on all cores.
 std::vector<std::uint8_t> count_facet_probes(const EntryFootprints& footprints, const Supports& supports,
                                              const std::vector<GapFace>& gaps, const ReceiverGrid& receivers);
 /// The same for cone sectors.

@@ -41,7 +41,7 @@ class Appender {
     const auto& facets = from_.supports.facets;
     const auto point = [&](VertexId v, std::uint32_t facet) {
       const std::uint32_t link = facet == kNoFacet ? 0 : first_ + facet + 1;
-      return glm::vec4(glm::vec3(shape.local(v)), static_cast<float>(link));
+      return glm::vec4(glm::vec3(shape.in_light_frame(v)), static_cast<float>(link));
     };
     const VertexId a = shape.begin_of(f), b = shape.end_of(f);
     out_.records.push_back(

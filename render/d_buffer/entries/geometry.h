@@ -1,7 +1,8 @@
-// The D-buffer's own geometry: facets and cone sectors as seen from the light's center.
+// D-buffer step 4: facets, cone sectors and gap faces as triangles to draw, and a record a facet for the shader.
 //
-// In the coordinates of entry_footprint.h everything is flat, so depth is linear on the screen and needs no
-// per-pixel correction (the 2004 paper, section 3.2, interpolates distances and accepts the error).
+// In: footprints, reach, who will read the D-buffer. Out: EntryGeometry. In the coordinates of entry_footprint.h
+// everything is flat, so depth is linear on the screen. The 2004 paper (section 3.2) interpolates distances, which are
+// not, and accepts the error. Gap faces are the paper's silhouette faces (section 3.3).
 #pragma once
 
 #include <cstdint>
@@ -16,14 +17,18 @@ namespace penumbra::detail {
 
 struct EntryVertex {
   float u, v, w;
-  std::uint32_t facet;  ///< index into EntryGeometry::records / 4
-  float edge_weight;    ///< 1/z of the edge's point from which this line of the boundary starts
+  /// Number of its facet: the record is EntryGeometry::records[4 · facet] and the three after it.
+  std::uint32_t facet;
+  /// 1/z of the edge's point from which this line of the boundary starts.
+  float edge_weight;
 };
 
 struct EntryGeometry {
-  std::vector<EntryVertex> penumbra, umbra;  ///< triangles, three vertices each
-  /// Four points a facet, light's frame: previous, a, b, next (directed so that the lit side is positive);
-  /// the fourth number of the outer two is 1 + the previous or next facet; 0: none.
+  /// Triangles, three vertices each.
+  std::vector<EntryVertex> penumbra, umbra;
+  /// Four points a facet in the light's frame: the begin of the previous edge, the edge's ends a and b, the end of the
+  /// next edge. Directed so that the lit side is positive (SupportFacet::flipped). The fourth number of the first point is
+  /// 1 + the previous facet, of the last 1 + the next; 0: none.
   std::vector<glm::vec4> records;
 };
 
@@ -36,12 +41,12 @@ struct EntrySource {
   const ReceiverGrid& receivers;
 };
 
-/// Adds one caster; what no receiver reads is left out, and what goes on behind them cut short. Cost
-/// O(facets + cone segments).
+/// Adds one caster. What no receiver reads is left out, what goes on behind the last of them is cut short. Cost
+/// O(facets + cone segments), on all cores.
 void append_entry_geometry(const EntrySource& source, EntryGeometry& out);
 
-/// Puts triangles in the order of their own numbers, nearest to the light first, so that which of two at the
-/// same depth is kept depends on where they are and not on how the mesh lists them. Cost O(n log n).
+/// Sorts the triangles by their own coordinates, nearest to the light first. Which of two at the same depth a texel keeps
+/// then depends on where they are, not on how the mesh lists them. Cost O(n log n), on all cores.
 void sort_by_geometry(EntryGeometry& entries);
 
 }  // namespace penumbra::detail

@@ -11,8 +11,9 @@
 namespace penumbra::detail {
 namespace {
 
-constexpr int kCells = ReceiverGrid::kCells;  // a side of the finest level
-constexpr int kMostCells = 4;                 // a side that one answer looks at
+constexpr int kCells = ReceiverGrid::kCells;
+/// Speed: an answer looks at so many cells a side at most, of the finest level that allows it (d_buffer_bench).
+constexpr int kMostCells = 4;
 constexpr float kNobody = std::numeric_limits<float>::infinity();
 
 std::size_t place(SupportKind kind) {

@@ -1,9 +1,9 @@
-// Which parts of the D-buffer the image's receivers will read, so that nothing is drawn for the others.
+// D-buffer step 3: which parts of the D-buffer the image's receivers will read. Nothing is drawn for the others.
 //
-// A texel is read only by receivers on its line of sight; those that see the light's center read penumbra
-// entries, the others umbra entries; and an entry counts only for receivers behind it. So a boundary whose
-// bounds in (x/z, y/z) hold no such receiver changes no pixel, and one that holds some need not go on behind
-// the farthest of them.
+// In: receivers, and which of them see the light's center. Out: for any rectangle of (x/z, y/z) the 1/z down to which
+// entries are read there. A texel is read only by receivers on its line of sight. Those that see the light's center read
+// penumbra entries, the others umbra entries. An entry counts only for receivers behind it. So a boundary changes no pixel
+// if its bounds hold no such receiver, and need not go on behind the farthest that they hold. Not in the 2004 paper.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@
 
 namespace penumbra::detail {
 
-/// The image's receivers in a frame that axes and offset turn into the light's; the fourth number is 0 where
-/// nothing is seen.
+/// The image's receivers, positions in the caster frame (the fourth number is 0 where nothing is seen); axes · p + offset
+/// is in the light's frame.
 struct ImageReceivers {
   int width, height;
   std::span<const glm::vec4> positions;
@@ -41,27 +41,31 @@ struct UvBounds {
 class ReceiverGrid {
  public:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  static constexpr int kCells = 256;  ///< a side of the grid over the target's window
+  /// Speed: cells a side of the grid over the target's window. More: fewer boundaries are drawn in vain, and the grid
+  /// takes longer to make (d_buffer_bench). At most 256, see Reads.
+  static constexpr int kCells = 256;
 
   /// What one pixel reads.
   struct Reads {
-    std::uint8_t column = 0, row = 0;      ///< its cell
-    bool penumbra = false, umbra = false;  ///< entries of which kind
+    /// Its cell.
+    std::uint8_t column = 0, row = 0;
+    /// Entries of which kind.
+    bool penumbra = false, umbra = false;
     bool any() const { return penumbra || umbra; }
   };
 
-  /// Receivers everywhere, as far away as can be.
+  /// Receivers everywhere, as far away as can be: every entry may be read.
   ReceiverGrid() = default;
-  /// Those of an image in the only target of `size` texels a side around a disk of the given radius; `seen`
-  /// as from CenterRays::center_seen, `normals` in the scene's frame. Cost O(pixels), on all cores.
+  /// The receivers of an image in the only target. `seen`: as from CenterRays::center_seen; `normals`: in world axes;
+  /// `size`: texels a side of the target; `radius`: of the disk, in the light's frame. Cost O(pixels), on all cores.
   ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals, std::span<const float> seen,
                const Target& target, int size, double radius);
 
   bool is_everywhere() const { return levels_.empty(); }
-  /// A number that no receiver of entries of this kind within the bounds is below: entries of no greater 1/z
-  /// are not read. kNone where there is no such receiver. Cost O(1).
+  /// A lower bound of 1/z of the receivers within `bounds` that read entries of this kind: what has no greater 1/z is not
+  /// read there. kNone where there is no such receiver. Cost O(1).
   double least_weight(SupportKind kind, const UvBounds& bounds) const;
-  /// One per pixel; none for receivers everywhere.
+  /// One a pixel; none for receivers everywhere.
   std::span<const Reads> reads() const { return reads_; }
 
  private:
@@ -70,9 +74,11 @@ class ReceiverGrid {
   void build_levels(Kinds finest);
 
   std::vector<Reads> reads_;
-  std::vector<Kinds> levels_;  ///< each halves the cells a side of the one before
+  /// Each has half the cells a side of the one before.
+  std::vector<Kinds> levels_;
   glm::dvec2 low_{0.0}, cells_per_unit_{0.0};
-  double texel_ = 0.0;  ///< in cells
+  /// A texel's width in cells.
+  double texel_ = 0.0;
 };
 
 }  // namespace penumbra::detail

@@ -1,5 +1,8 @@
-// A boundary of the shadow as the receiver sees it on the disk: from the edge of an entry on to its neighbors' edges, as
-// far as they lie in the disk. Exact for one line of edges, convex or not, and for one that closes within the disk.
+// D-buffer step 7: a boundary of the shadow as the receiver sees it on the disk.
+//
+// In: the facet of an entry and the receiver. Out: the area of the disk on the boundary's lit side. The boundary is followed
+// from the entry's edge to its neighbors' edges, as far as they lie in the disk. Exact for one line of edges, convex or not,
+// and for one that closes within the disk. Not in the 2004 paper, which takes the boundary for one straight line (section 2.3).
 // Needs disk_area.glsl and d_buffer_lookup.glsl.
 
 float cross2(vec2 p, vec2 q) { return p.x * q.y - p.y * q.x; }
@@ -49,7 +52,9 @@ bool meets_disk(vec2 p, vec2 q) {
   return along > 0.0 && area * area < length2 && (along < length2 || dot(q, q) < 1.0);
 }
 
-const int kMostSteps = 16;  // a boundary that goes on is a straight line from there
+// Speed and accuracy: edges that are followed to either side; from there on the boundary is taken for a straight line
+// (DBufferBoundary, DBufferScenes).
+const int kMostSteps = 16;
 
 // From p, in the disk and on the edge's line, past its end b, `pb` on the disk; `side` of its record is what comes then:
 // 3, or 0 where b is the edge's begin.

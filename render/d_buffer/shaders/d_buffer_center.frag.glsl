@@ -1,6 +1,7 @@
 #version 450 core
-// Whether a receiver sees the light's center, by the depth of the first surface in its texel. With the center below the
-// horizon the texel says nothing.
+// D-buffer step 1 without rays (CenterTest::kDepth): whether a receiver sees the light's center, by the depth of the first
+// surface in its texel, as the 2004 paper does. A receiver whose horizon is above the center counts as seeing it.
+// TARGETS: number of targets.
 #include "d_buffer_lookup.glsl"
 
 layout(location = 0) out float seen;

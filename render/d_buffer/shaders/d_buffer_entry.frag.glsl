@@ -1,7 +1,10 @@
 #version 450 core
-// What a texel keeps of an entry: which facet it is, or, for the 2004 paper's own contents, the depth of its edge. Entries
-// may have to stand a comparison with a surface (SURFACE 1: lie in front of it; 2: behind it), or to come after an entry
-// that is kept already (PEEL 1).
+// D-buffer step 6: what a texel keeps of an entry. That is 1 + its facet or, for the 2004 paper's own contents, the bits of
+// the 1/z of its edge; the depth test keeps its depth.
+//
+// Defined from outside (fill_passes.cpp):
+//   SURFACE  0: every entry is kept; 1: those in front of the surface; 2: those behind it
+//   PEEL     1: only entries after the one that is kept already, for a second one a texel
 
 uniform bool store_edge_weight;
 

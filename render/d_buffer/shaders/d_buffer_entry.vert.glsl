@@ -1,4 +1,5 @@
 #version 450 core
+// D-buffer step 6: an entry's vertex (EntryVertex) on its way to one target.
 #include "d_buffer_target.glsl"
 
 layout(location = 0) in vec3 uvw;           // (x/z, y/z, 1/z) in the light's frame

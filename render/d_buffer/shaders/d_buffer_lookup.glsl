@@ -1,11 +1,12 @@
 // The D-buffer seen from a receiver: which texel, whether the light's center is hidden, which entries apply. Everything is
-// in the light's frame: the disk in z = 0 about the origin.
+// in the light's frame: the disk in z = 0 about the origin. Needs TARGETS, the number of targets.
 
 const int kMaxTargets = 5;
 const uint kEmpty = 0u;        // ids are stored plus one
-const float kOnPlane = 1e-5;   // heights above the receiver that float cannot tell from 0, relative to depth
+// Accuracy: heights above the receiver's plane that float cannot tell from 0, relative to depth (DBuffer.CastersOwnSurfaceIsClean).
+const float kOnPlane = 1e-5;
 
-uniform sampler2D surface_position;   // scene frame; the fourth number is 1 + the face's number, 0: nothing seen
+uniform sampler2D surface_position;   // caster frame; the fourth number is 1 + the face's number, 0: nothing seen
 uniform sampler2D surface_normal;     // world, unit, towards the viewer
 uniform sampler2D center_seen;        // 1 where the receiver sees the light's center, else 0
 uniform usampler2DArray occluder_face;    // the first surface
@@ -20,15 +21,16 @@ uniform samplerBuffer records;            // four points a facet: previous, a, b
 // Kinds of entries: of the penumbra, in front of the first surface; of the umbra, in front of the last surface or behind it.
 const int kPenumbra = 0, kAbove = 1, kBelow = 2;
 
-uniform mat3 light_axes;
+uniform mat3 light_axes;     // caster frame → light's frame
 uniform vec3 light_offset;
-uniform float radius;
-uniform float near_depth;
+uniform float radius;        // of the disk
+uniform float near_depth;    // forward distance below which nothing was drawn
 const int target_count = TARGETS;
 uniform mat3 target_axes[kMaxTargets];
 uniform vec4 target_window[kMaxTargets];
 
-const float kBias = 0.75;       // in texels
+// Accuracy: a surface has to be so many texels above the receiver's plane to count as before it (DBuffer.CastersOwnSurfaceIsClean).
+const float kBias = 0.75;
 
 struct Receiver {
   vec3 x;        // point

@@ -1,9 +1,10 @@
 #version 450 core
+// D-buffer step 5: a caster's vertex on its way to one target.
 #include "d_buffer_target.glsl"
 
-layout(location = 0) in vec3 position;  // scene frame
+layout(location = 0) in vec3 position;  // caster frame
 
-uniform mat3 light_axes;    // scene frame → light's frame
+uniform mat3 light_axes;    // caster frame → light's frame
 uniform vec3 light_offset;
 
 void main() {

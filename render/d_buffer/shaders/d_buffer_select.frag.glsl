@@ -1,7 +1,10 @@
 #version 450 core
-// First pass of shading: visibility where no entry applies, and a depth of 1 where the second pass has to look at one.
-// Software rasterisers run both sides of a branch, so the few pixels that need the long shader are told apart by depth.
-// KNOWN 1: the visibility where no entry applies is in the image already.
+// D-buffer step 7, first pass: visibility where no entry applies. Depth 1 marks pixels for the second pass, depth 0 all
+// others: software rasterizers run both sides of a branch, so a branch would not spare the long shader.
+//
+// Defined from outside (visibility_pass.cpp):
+//   TARGETS  number of targets
+//   KNOWN    1: the visibility where no entry applies is in the image already
 #include "disk_area.glsl"
 #include "d_buffer_lookup.glsl"
 

@@ -1,4 +1,5 @@
 #version 450 core
+// D-buffer step 7: a rectangle of the image (entries/tiles.h), at the depth that the second pass compares marks with.
 
 layout(location = 0) in vec2 corner;  // clip coordinates
 

@@ -1,5 +1,6 @@
 #version 450 core
-// Depth → the channel of its slice (and of the next one), joined to what is there by a bitwise OR.
+// Occlusion textures, step 2: depth → the channel of its slice (and of the next one), joined to what is there by a bitwise
+// OR. "Occlusion textures" (2006), section 3.4.
 
 in float depth;
 flat in int sample_number;

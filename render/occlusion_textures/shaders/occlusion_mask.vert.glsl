@@ -1,9 +1,10 @@
 #version 450 core
-// A caster's point as the center of projection behind the light sees it, once for each sample of a texel.
+// Occlusion textures, step 2: a caster's point as the center of projection behind the light sees it, once for each sample of
+// a texel.
 
-layout(location = 0) in vec3 position;  // scene frame
+layout(location = 0) in vec3 position;  // caster frame
 
-uniform mat3 light_axes;  // scene frame → light's frame
+uniform mat3 light_axes;  // caster frame → light's frame
 uniform vec3 light_offset;
 uniform float near_depth;      // nothing nearer to the light's plane casts
 uniform float narrowing;       // 1/distance of the center of projection behind the light

@@ -212,6 +212,7 @@ RowEnds row_ends(const std::size_t* ends, std::size_t begin) {
 
 /// The first row above y. The same rounding for segments and events, so that depth complexities stay whole.
 inline int Rows::row_above(double y) const {
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): what is negative is clamped
   return std::clamp(static_cast<int>((y - bottom_) * per_spacing_ + 0.5), 0, rows_);
 }
 
@@ -220,7 +221,7 @@ void Rows::place_rows(const DiskPart& part, int rows) {
   if (whole_disk_ && !part.is_cut() && rows == rows_) return;
   rows_ = rows;
   whole_disk_ = !part.is_cut();
-  stride_ = static_cast<std::size_t>((rows + kRowLanes - 1) / kRowLanes * kRowLanes);
+  stride_ = static_cast<std::size_t>(rows + kRowLanes - 1) / kRowLanes * kRowLanes;
   bottom_ = part.bottom();
   spacing_ = (part.top() - bottom_) / rows;
   per_spacing_ = 1.0 / spacing_;

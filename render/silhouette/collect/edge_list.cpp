@@ -229,6 +229,7 @@ void EdgeList::fill_columns() {
 }
 
 std::size_t EdgeList::bytes() const {
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): edges_ holds pointers
   return edges_.capacity() * sizeof(edges_[0]) + ends_.capacity() * sizeof(ends_[0]) +
          places_.capacity() * sizeof(places_[0]) + kColumns * columns_[0].capacity() * sizeof(float);
 }

@@ -78,7 +78,7 @@ TEST(Motion, TheRadiusAndTheNormalOneUlpAtATime) {
   }
 }
 
-/// Across and past the caster, through its inside and down to its foot. Volumes of neighbouring steps are not
+/// Across and past the caster, through its inside and down to its foot. Volumes of neighboring steps are not
 /// compared: cells appear and vanish as faces change their class.
 TEST(Motion, SlowlyAcrossScenes) {
   constexpr int kSteps = 40;
