@@ -6,44 +6,17 @@
 #include "apps/cli/command_line.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/image/image.h"
-#include "penumbra/render/method.h"
 #include "tests/apps/cli/program.h"
+#include "tests/apps/toy_method.h"
 
 namespace penumbra::test {
 namespace {
 
 using Json = nlohmann::json;
 
-/// Every receiver sees the same share of the light.
-class ToyMethod : public Method {
-  MethodResult run(const MethodInput& input) override {
-    MethodResult out;
-    for (std::size_t i = 0; i < input.receivers.size(); ++i)
-      out.visibility.push_back(
-          input.receivers.is_present(i) ? static_cast<float>(real_of(input.options, "toy-share")) : 1.0f);
-    out.stages = {{"toy", 0.25}};
-    out.counts = {{"toys", std::uint64_t{7}}};
-    return out;
-  }
-};
-
-void register_toy() {
-  register_method({.name = "toy",
-                   .summary = "the same share everywhere",
-                   .options = {{.name = "toy-share",
-                                .domain = RealRange{0.0, 1.0},
-                                .usual = 0.25,
-                                .unit = "of the light",
-                                .help = "What every receiver sees"}},
-                   .make = [](const Scene&) { return std::make_unique<ToyMethod>(); }});
-}
-
 class ToyMethodTest : public ProgramTest {
  protected:
-  static void SetUpTestSuite() {
-    static const bool once = (register_toy(), true);
-    static_cast<void>(once);
-  }
+  static void SetUpTestSuite() { require_toy(); }
   ToyMethodTest() : scene_(write("s.json", scene_text("t.off"))) { write("t.off", kTetrahedron); }
 
   /// In this process: the program itself does not know the method.
