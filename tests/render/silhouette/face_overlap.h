@@ -13,6 +13,7 @@
 #include "render/silhouette/collect/light_band.h"
 #include "render/silhouette/light_rays.h"
 #include "render/silhouette/silhouette_visibility.h"
+#include "tests/render/visibility_support.h"
 
 namespace penumbra::testing {
 
