@@ -58,7 +58,7 @@ TEST_F(CommandTest, OcclusionTexturesSayTheirOptions) {
                                        "--coverage",     "area",
                                        "--stats",        "-"})
                                      .out);
-  EXPECT_EQ(stats["options"]["cop_offset"], "orthographic");
+  EXPECT_EQ(stats["options"]["cop-offset"], "orthographic");
   EXPECT_EQ(stats["options"]["filter"], "nbuffer");
   EXPECT_EQ(stats["counts"]["thin_casters"], 1);
   for (const char* stage : {"frustum", "slices", "read_back", "prefilter", "visibility"})
