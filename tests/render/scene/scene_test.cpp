@@ -182,7 +182,7 @@ TEST_F(SceneTest, UnknownKeysWarnAndStrictRefuses) {
   ASSERT_EQ(loaded.warnings.size(), 2u);
   EXPECT_NE(loaded.warnings[0].find("/lights/0/power~14"), std::string::npos) << loaded.warnings[0];
   EXPECT_NE(loaded.warnings[1].find("/objects/1/colour"), std::string::npos) << loaded.warnings[1];
-  EXPECT_EQ(loaded.scene.document["objects"][1]["x-note"]["deep"], true);
+  EXPECT_EQ(nlohmann::json::parse(loaded.scene.document)["objects"][1]["x-note"]["deep"], true);
   EXPECT_NE(message_of(document, true).find("/lights/0/power~14"), std::string::npos);
 }
 

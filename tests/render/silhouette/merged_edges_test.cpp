@@ -354,7 +354,7 @@ TEST(MergedFaces, CertificatesHoldToTheLast) {
       const Band band = make_merged_band(lit, merged, level);
       const auto receiver_at = [&](const Vec3& world) {
         TileReceiver r;
-        r.x = light.point(world), r.normal = Vec3(0, 0, -1), r.horizon = no_horizon();
+        r.x = stage.light.point(world), r.normal = Vec3(0, 0, -1), r.horizon = no_horizon();
         return r;
       };
       const auto is_certain = [&](const Vec3& world) {
