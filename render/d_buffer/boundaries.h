@@ -1,14 +1,14 @@
 // D-buffer step 4: the boundaries of the casters' shadows.
 //
-// In: casters, light, who will read the D-buffer. Out: for every caster its facets, cone sectors and gap faces
-// (volumes/supports.h), how far each reaches, and all of it as triangles to draw.
+// In: casters, light, who will read the D-buffer. Out: for every caster its facets, cone sectors and gap
+// faces (volumes/supports.h), how far each reaches, and all of it as triangles to draw.
 //
-//   outline    classes → silhouettes → facets, gap faces           by the light alone, kept while it stays
-//   boundary   reach of facets → cone sectors → reach of those     by what receivers will read (entries/facet_reach.h)
-//   geometry   triangles and records                               entries/geometry.h
+//   outline    classes → silhouettes → facets, gap faces        by the light alone, kept while it stays
+//   boundary   reach of facets → cone sectors → their reach      by what receivers will read
+//   geometry   triangles and records                             entries/geometry.h
 //
-// "Umbra and penumbra volumes" (2004), sections 2 and 3. The paper draws every facet to the end of the scene; here
-// only those count that light really grazes, as far as it goes on.
+// "Umbra and penumbra volumes" (2004), sections 2 and 3. The paper draws every facet to the end of the scene;
+// here only those count that light really grazes, as far as it goes on.
 #pragma once
 
 #include <optional>
@@ -38,8 +38,8 @@ struct Outline {
 /// The outlines of all casters for one light.
 class Outlines {
  public:
-  /// One a caster. Adds the stages classify, silhouettes and supports to the clock; does nothing if light and casters are
-  /// those of the last call. Cost O(faces + band).
+  /// One a caster. Adds the stages classify, silhouettes and supports to the clock; does nothing if light and
+  /// casters are those of the last call. Cost O(faces + band).
   void find(std::span<const DBufferCaster> casters, const DiskLight& light, StageClock& clock);
   /// The next call of `find` finds everything anew: a caster can occlude that could not, or timing needs it.
   void forget() { light_.reset(); }
@@ -74,8 +74,8 @@ struct BoundarySource {
 std::vector<Boundary> find_boundaries(const BoundarySource& source, std::span<const Outline> outlines,
                                       StageClock& clock);
 
-/// Triangles and records of all boundaries, in an order that does not depend on how meshes list their faces. Empty
-/// where the view has no targets. Cost O(n log n), n the number of triangles.
+/// Triangles and records of all boundaries, in an order that does not depend on how meshes list their faces.
+/// Empty where the view has no targets. Cost O(n log n), n the number of triangles.
 EntryGeometry find_geometry(const BoundarySource& source, std::span<const Boundary> boundaries);
 
 /// Faces, edges, facets and cone sectors of all casters.

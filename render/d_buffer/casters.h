@@ -13,16 +13,16 @@
 
 namespace penumbra::detail {
 
-/// The caster frame: (world - origin) · scale. Points are uploaded in it: its origin is the middle of the casters, so
-/// floats keep their digits wherever the light is.
+/// The caster frame: (world - origin) · scale. Points are uploaded in it: its origin is the middle of the
+/// casters, so floats keep their digits wherever the light is.
 struct CasterFrame {
   Vec3 origin{0.0};
   double scale = 1.0;
   Vec3 from_world(const Vec3& p) const { return (p - origin) * scale; }
 };
 
-/// The frame of a scene's casters, about the origin of the world where there are none. `scale`: a power of two that
-/// brings the scene to about unit size.
+/// The frame of a scene's casters, about the origin of the world where there are none. `scale`: a power of
+/// two that brings the scene to about unit size.
 CasterFrame caster_frame(const Scene& scene, double scale);
 
 /// An object that casts and has faces. Refers to the scene's mesh.
@@ -49,7 +49,8 @@ struct CasterRange {
   bool cannot_occlude = false;
 };
 
-/// All casters' faces, in the caster frame; three indices a face; one range a caster, in the order of find_casters.
+/// All casters' faces, in the caster frame; three indices a face; one range a caster, in the order of
+/// find_casters.
 struct CasterTriangles {
   std::vector<glm::vec3> points;
   std::vector<std::uint32_t> indices;
@@ -59,8 +60,8 @@ struct CasterTriangles {
 /// Cost O(vertices + faces).
 CasterTriangles caster_triangles(const Scene& scene, const CasterFrame& frame);
 
-/// The surface points of an image in the caster frame. The fourth number is 1 + the number of the face that is seen,
-/// counted over all objects of the scene; 0 where nothing is seen. Cost O(pixels).
+/// The surface points of an image in the caster frame. The fourth number is 1 + the number of the face that
+/// is seen, counted over all objects of the scene; 0 where nothing is seen. Cost O(pixels).
 std::vector<glm::vec4> receiver_positions(const Scene& scene, const CasterFrame& frame,
                                           const Receivers& surface);
 

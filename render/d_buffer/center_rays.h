@@ -1,7 +1,8 @@
 // D-buffer steps 1 and 8: rays from surface points to the light's center, and to sixteen points of the disk.
 //
-// In: surface points (once per camera), a light. Out: a number a pixel. Which entries a receiver reads depends on whether
-// it sees the light's center. The 2004 paper decides that for a texel, by a shadow map; a ray decides it for the receiver.
+// In: surface points (once per camera), a light. Out: a number a pixel. Which entries a receiver reads
+// depends on whether it sees the light's center. The 2004 paper decides that for a texel, by a shadow map; a
+// ray decides it for the receiver.
 #pragma once
 
 #include <cstdint>
@@ -21,19 +22,19 @@ class CenterRays {
  public:
   /// Copies what it needs of `surface`; `rays` must outlive it.
   CenterRays(const Receivers& surface, const RayScene& rays);
-  /// Writes one number per pixel to `out`: 0 where a caster lies between the surface point and the disk's center, else 1.
-  /// If the center is below the point's horizon but part of the disk is above it, the middle of that part takes the
-  /// center's place. 1 behind the light, and where all of the disk is below the horizon. Cost: one ray a pixel, on all
-  /// cores.
+  /// Writes one number per pixel to `out`: 0 where a caster lies between the surface point and the disk's
+  /// center, else 1. If the center is below the point's horizon but part of the disk is above it, the middle
+  /// of that part takes the center's place. 1 behind the light, and where all of the disk is below the
+  /// horizon. Cost: one ray a pixel, on all cores.
   void center_seen(const DiskLight& light, std::vector<float>& out) const;
-  /// Visibility of each of the given pixels, all of which see a surface. It is the disk's fraction above the horizon, times
-  /// the part that is seen of sixteen points on the disk, those below the horizon left out. Nine patterns of points
-  /// alternate over three by three pixels (interleaved sampling, A. Keller and W. Heidrich 2001). Where one edge crosses
-  /// the disk, the root mean square error over all chords is .037 for one pattern (at most .14) and .007 for the mean of
-  /// nine. Cost: sixteen rays a pixel, on all cores.
+  /// Visibility of each of the given pixels, all of which see a surface. It is the disk's fraction above the
+  /// horizon, times the part that is seen of sixteen points on the disk, those below the horizon left out.
+  /// Nine patterns of points alternate over three by three pixels (interleaved sampling, A. Keller and W.
+  /// Heidrich 2001). Where one edge crosses the disk, the root mean square error over all chords is .037 for
+  /// one pattern (at most .14) and .007 for the mean of nine. Cost: sixteen rays a pixel, on all cores.
   std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
-  /// Writes one number per pixel to `out`: the disk's area fraction above the point's horizon, 0 behind the light, 1 where
-  /// nothing is seen. Cost O(pixels), on all cores.
+  /// Writes one number per pixel to `out`: the disk's area fraction above the point's horizon, 0 behind the
+  /// light, 1 where nothing is seen. Cost O(pixels), on all cores.
   void above_horizon(const DiskLight& light, std::vector<float>& out) const;
 
  private:

@@ -16,8 +16,9 @@
 namespace penumbra {
 namespace {
 
-/// Whether it is known before drawing which entries a receiver reads: a ray has told whether it sees the light's center,
-/// and no entry counts that is farther away than the receiver. The grid of receivers has a single target.
+/// Whether it is known before drawing which entries a receiver reads: a ray has told whether it sees the
+/// light's center, and no entry counts that is farther away than the receiver. The grid of receivers has a
+/// single target.
 bool reads_are_known(const detail::DBufferView& view, const DBufferOptions& options) {
   return view.targets.size() == 1 && options.center == CenterTest::kRay &&
          options.conflict == Conflict::kNearest;
@@ -81,7 +82,8 @@ void DBuffer::Impl::set_surface(const Receivers& surface) {
   gl::require_no_error(gl, "uploading the surface buffer");
 }
 
-/// Rounding puts receivers on a floor to either side of it, by less than rays start above it; half of that is allowed.
+/// Rounding puts receivers on a floor to either side of it, by less than rays start above it; half of that is
+/// allowed.
 void DBuffer::Impl::find_casters_that_cannot_occlude(const DiskLight& light) {
   std::vector<bool> flags;
   for (detail::DBufferCaster& caster : casters) {
@@ -108,8 +110,8 @@ void DBuffer::Impl::prepare_layers(const detail::DBufferView& view, const DBuffe
   gl.ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-/// Occluders are drawn while boundaries are found, and tiles of the image chosen while entries are drawn: OpenGL leaves
-/// a core idle for most of its time.
+/// Occluders are drawn while boundaries are found, and tiles of the image chosen while entries are drawn:
+/// OpenGL leaves a core idle for most of its time.
 DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options,
                                    const Progress& progress) {
   DBufferFrame frame;

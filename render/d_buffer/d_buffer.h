@@ -1,29 +1,32 @@
 // The D-buffer: what the light's center sees of shadow boundaries, and a visibility shader that reads it.
 //
-// In: the scene's casters (uploaded once), surface points (uploaded once per camera), a disk light. Out: visibility V
-// of every surface point. "Umbra and penumbra volumes" (2004), sections 3 and 4. The steps of a frame, in order, with the stage of --stats that they are timed as:
+// In: the scene's casters (uploaded once), surface points (uploaded once per camera), a disk light. Out:
+// visibility V of every surface point. "Umbra and penumbra volumes" (2004), sections 3 and 4. The steps of a
+// frame, in order, with the stage of --stats that they are timed as:
 //
 //   1 center       center_rays.h            a ray from every surface point to the light's center
-//   2 receivers    receivers/occluding_casters.h which casters cannot occlude: they take no part
+//   2 receivers    receivers/occluding_casters.h
+//                                           which casters cannot occlude: they take no part
 //   3 receivers    view.h, entries/targets.h, entries/receiver_grid.h
 //                                           perspectives from the light's center; which texels will be read
 //   4 classify, silhouettes, supports, reach, corners, facets
 //                  boundaries.h, entries/   facets, cone sectors and gap faces of the boundaries, as triangles
 //   5 occluders    fill_passes.h            first and last surface, drawn while step 4 runs
-//   6 entries      fill_passes.h            the triangles of step 4, drawn while entries/tiles.h chooses what of the image
-//                                           step 7 visits
-//   7 visibility   visibility_pass.h        the shader: texel → entry → chord or boundary on the disk → V
+//   6 entries      fill_passes.h            the triangles of step 4, drawn while entries/tiles.h chooses the
+//                                           parts of the image that step 7 visits
+//   7 visibility   visibility_pass.h        the shader: texel → entry → boundary on the disk → V
 //   8 visibility   resampler.h              pixels whose entries contradict each other are sampled by rays
 //
-// What a texel keeps. The paper's texel has the distances |cxo|, |cxuv|, |cxpv| and |cxs|. Here it has the occluder's
-// face and depth and *which edge* bounds the penumbra on that line of sight. So the chord that the edge cuts off the
-// disk is exact for every receiver, and eq. 2 and 3 are not needed (the paper prints eq. 2 inverted and the branches of
-// eq. 3 swapped); the paper's own contents, corrected, are an option. Neighbors of an edge are known too: the shader follows
-// the boundary as far as it lies in the disk.
+// What a texel keeps. The paper's texel has the distances |cxo|, |cxuv|, |cxpv| and |cxs|. Here it has the
+// occluder's face and depth and *which edge* bounds the penumbra on that line of sight. So the chord that the
+// edge cuts off the disk is exact for every receiver, and eq. 2 and 3 are not needed (the paper prints eq. 2
+// inverted and the branches of eq. 3 swapped); the paper's own contents, corrected, are an option. Neighbors
+// of an edge are known too: the shader follows the boundary as far as it lies in the disk.
 //
-// Other departures. Depths are 1/z, which is linear on the screen (the paper interpolates distances and accepts the
-// error). Triangles are dilated by a texel, so that no texel that touches a penumbra is empty (towards the border of a
-// hemicube's side by less than one). Step 1 replaces the paper's shadow map, and steps 2, 3 and 8 are not in the paper.
+// Other departures. Depths are 1/z, which is linear on the screen (the paper interpolates distances and
+// accepts the error). Triangles are dilated by a texel, so that no texel that touches a penumbra is empty
+// (towards the border of a hemicube's side by less than one). Step 1 replaces the paper's shadow map, and
+// steps 2, 3 and 8 are not in the paper.
 #pragma once
 
 #include <memory>
@@ -55,10 +58,11 @@ enum class VisibilityCurve {
 };
 /// How it is decided whether a receiver sees the light's center.
 enum class CenterTest {
-  kRay,  ///< one ray a pixel: right for every receiver
-  kDepth,  ///< the depth of the first surface in the texel, with a bias along the receiver's normal (as the paper)
+  kRay,    ///< one ray a pixel: right for every receiver
+  kDepth,  ///< the depth of the first surface in the texel, as the paper; biased along the receiver's normal
 };
-/// What is done about entries that contradict each other. Only with kEdge, kExact and kRay; else nothing is done.
+/// What is done about entries that contradict each other. Only with kEdge, kExact and kRay; else nothing is
+/// done.
 enum class EntryCheck {
   kRays,  ///< some pixels are sampled by sixteen rays, see resampler.h
   kNone,
@@ -97,19 +101,23 @@ struct DBufferFrame {
   Counts counts;
 };
 
-/// A D-buffer kept between frames: textures, programs and what depends on casters or camera alone are made once.
+/// A D-buffer kept between frames: textures, programs and what depends on casters or camera alone are made
+/// once.
 class DBuffer {
  public:
-  /// Uploads the casters. `context`, `scene` and `rays` must outlive the D-buffer, and the casters stay as they are; the
-  /// context is made current by each call. Cost O(vertices + faces). Throws SystemError where OpenGL fails.
+  /// Uploads the casters. `context`, `scene` and `rays` must outlive the D-buffer, and the casters stay as
+  /// they are; the context is made current by each call. Cost O(vertices + faces). Throws SystemError where
+  /// OpenGL fails.
   DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~DBuffer();
-  /// The receivers, pixels of a picture with normals: once per camera, before `render`. They are copied. Cost O(pixels). Throws SystemError.
+  /// The receivers, pixels of a picture with normals: once per camera, before `render`. They are copied. Cost
+  /// O(pixels). Throws SystemError.
   void set_surface(const Receivers& surface);
-  /// Visibility of the receivers under `light`. Outlines of casters are kept while the light stays, everything else is
-  /// made anew; a frame never depends on the frames before it. Throws UsageError for a size or entries outside their
-  /// range and before set_surface, SystemError where OpenGL fails, Cancelled. Cost O(faces + band + texels + pixels), one
-  /// ray a pixel with CenterTest::kRay, and sixteen for each pixel that is resampled.
+  /// Visibility of the receivers under `light`. Outlines of casters are kept while the light stays,
+  /// everything else is made anew; a frame never depends on the frames before it. Throws UsageError for a
+  /// size or entries outside their range and before set_surface, SystemError where OpenGL fails, Cancelled.
+  /// Cost O(faces + band + texels + pixels), one ray a pixel with CenterTest::kRay, and sixteen for each
+  /// pixel that is resampled.
   DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
   /// The next frame finds outlines anew even if the light stays: for timing.
   void forget_light();

@@ -15,9 +15,9 @@ void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std:
   gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
-/// Whether penumbra entries are kept only in front of the first surface. That need not be tested for the nearest ones
-/// where rays tell which receivers see the light's center: such a receiver lies on or before the first surface, so the
-/// nearest entry before it is before the surface too.
+/// Whether penumbra entries are kept only in front of the first surface. That need not be tested for the
+/// nearest ones where rays tell which receivers see the light's center: such a receiver lies on or before the
+/// first surface, so the nearest entry before it is before the surface too.
 bool needs_first_surface(const DBufferOptions& options) {
   return options.center == CenterTest::kDepth || options.conflict == Conflict::kFurthest;
 }

@@ -1,9 +1,10 @@
 // D-buffer steps 5 and 6: the draw calls that fill the D-buffer, occluders first, then entries.
 //
-// "Umbra and penumbra volumes" (2004), sections 3.1 to 3.3. Into every target go the first surface (face and depth), the
-// depth of the last surface that faces the light's center, penumbra entries in front of the first surface, umbra entries
-// in front of the last surface, and umbra entries behind it. An umbra begins anew behind every surface that faces the
-// center, so a receiver between two surfaces reads other umbra entries than one behind both.
+// "Umbra and penumbra volumes" (2004), sections 3.1 to 3.3. Into every target go the first surface (face and
+// depth), the depth of the last surface that faces the light's center, penumbra entries in front of the first
+// surface, umbra entries in front of the last surface, and umbra entries behind it. An umbra begins anew
+// behind every surface that faces the center, so a receiver between two surfaces reads other umbra entries
+// than one behind both.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,8 @@ class FillPasses {
   /// One flag a caster; true: it is not drawn.
   void set_casters_that_cannot_occlude(const std::vector<bool>& flags);
   void upload_entries(const EntryGeometry& geometry);
-  /// Fills the first and the last surface of `layers`. The first is drawn only for options that read it; of the last only
-  /// what `receivers` read. The framebuffer that is bound is used.
+  /// Fills the first and the last surface of `layers`. The first is drawn only for options that read it; of
+  /// the last only what `receivers` read. The framebuffer that is bound is used.
   void draw_occluders(const DBufferView& view, const ReceiverGrid& receivers, const DBufferLayers& layers,
                       const DBufferOptions& options);
   /// Fills the entries of `layers`, after draw_occluders and upload_entries.

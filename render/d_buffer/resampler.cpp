@@ -14,30 +14,32 @@
 namespace penumbra::detail {
 namespace {
 
-// Accuracy, found by trial over the scenes of Resampler.LessensTheError and random poses (d_buffer_poses_test.cpp).
+// Accuracy, found by trial over the scenes of Resampler.LessensTheError and random poses
+// (d_buffer_poses_test.cpp).
 
-/// Least cosine between the normals of two pixels that count as one surface. Smaller: samples spread over creases.
+/// Least cosine between the normals of two pixels that count as one surface. Smaller: samples spread over
+/// creases.
 constexpr float kSameSurfaceCosine = 0.9f;
 /// The same where samples are averaged. Smaller: the shadow on a curved surface is blurred
 /// (Resampler.NoiseOfSamplesIsAveragedOnFlatGroundOnly).
 constexpr float kFlatCosine = 0.998f;
 /// Greatest height above the neighbor's plane over the distance of two pixels that count as one surface.
 constexpr float kSameSurfaceSlope = 0.5f;
-/// A difference of so many times the noise of the samples is no longer noise. Smaller: noise replaces entries that are
-/// right (Resampler.AProbePixelThatErrsByItsNoiseChangesNothing).
+/// A difference of so many times the noise of the samples is no longer noise. Smaller: noise replaces entries
+/// that are right (Resampler.AProbePixelThatErrsByItsNoiseChangesNothing).
 constexpr float kNoiseExplains = 2.0f;
 /// Samples that differ by more across a pixel, or bend by more at it, are not averaged: that is no noise.
 constexpr float kNoAverage = 0.3f;
-/// Root mean square error of one sample of CenterRays::sampled_visibility where one edge crosses the disk, and of the
-/// mean of nine neighbors, whose patterns complement each other. Both are measured.
+/// Root mean square error of one sample of CenterRays::sampled_visibility where one edge crosses the disk,
+/// and of the mean of nine neighbors, whose patterns complement each other. Both are measured.
 constexpr float kNoiseOfOne = 0.037f, kNoiseOfNine = 0.007f;
 /// With less of the disk above the horizon than this, visibility counts as 1: a sliver is all rounding.
 constexpr float kSliver = 0.05f;
 
 // Speed.
 
-/// Pixels from one probe pixel to the next, along rows and along columns. Smaller: more samples; larger: smaller
-/// surfaces with wrong entries are missed (DBuffer.APostBelowTheLampDoesNotDarkenTheFloor).
+/// Pixels from one probe pixel to the next, along rows and along columns. Smaller: more samples; larger:
+/// smaller surfaces with wrong entries are missed (DBuffer.APostBelowTheLampDoesNotDarkenTheFloor).
 constexpr int kProbesInShadow = 8, kProbesInLight = 16;
 
 constexpr float kNoSample = -1.0f;

@@ -6,8 +6,9 @@
 namespace penumbra::detail {
 namespace {
 
-/// Speed. Facets up to this part of the target's width are narrow: one ray finds their reach instead of three.
-/// Too large, and boundaries end too early or too late in the middle of facets (DBufferScenes.ErrorOnTheFloor).
+/// Speed. Facets up to this part of the target's width are narrow: one ray finds their reach instead of
+/// three. Too large, and boundaries end too early or too late in the middle of facets
+/// (DBufferScenes.ErrorOnTheFloor).
 constexpr double kNarrow = 1.0 / 32.0;
 
 /// Stands for "all directions" in (x/z, y/z).
@@ -28,8 +29,8 @@ double far_weight(const Scene& scene, const LightSpace& space) {
   return farthest > 0.0 ? 1.0 / farthest : 1.0;
 }
 
-/// Where casters and their penumbrae are seen, in (x/z, y/z). A penumbra is at most radius · (1/z - far) wider than its
-/// caster. Everywhere for a caster that crosses the light's plane.
+/// Where casters and their penumbrae are seen, in (x/z, y/z). A penumbra is at most radius · (1/z - far)
+/// wider than its caster. Everywhere for a caster that crosses the light's plane.
 UvBounds caster_window(const std::vector<DBufferCaster>& casters, const LightSpace& space, double far) {
   UvBounds window;
   for (const DBufferCaster& caster : casters) {

@@ -1,7 +1,7 @@
 // D-buffer step 3: from where and how wide the casters are seen.
 //
-// In: casters, light, texels a side. Out: the light's frame, the perspectives around the light that see all casters and
-// their penumbrae, and how large the boundaries of casters are drawn there.
+// In: casters, light, texels a side. Out: the light's frame, the perspectives around the light that see all
+// casters and their penumbrae, and how large the boundaries of casters are drawn there.
 #pragma once
 
 #include <glm/mat3x3.hpp>

@@ -24,8 +24,8 @@ bool resamples(const DBufferOptions& o) {
          o.curve == VisibilityCurve::kExact && o.center == CenterTest::kRay;
 }
 
-/// Whether trace_center has put the visibility without entries into the image already, at every pixel. If not, the first
-/// pass finds it.
+/// Whether trace_center has put the visibility without entries into the image already, at every pixel. If
+/// not, the first pass finds it.
 bool is_known(const DBufferOptions& o, int targets) {
   return o.center == CenterTest::kRay && targets <= 1;
 }

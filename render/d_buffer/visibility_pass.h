@@ -1,10 +1,10 @@
-// D-buffer step 7: visibility of an image's surface points by the D-buffer. Also holds what steps 1, 3 and 8 know of the
-// image.
+// D-buffer step 7: visibility of an image's surface points by the D-buffer. Also holds what steps 1, 3 and 8
+// know of the image.
 //
-// In: surface points (once per camera), the filled D-buffer, a light. Out: V per pixel. "Umbra and penumbra volumes"
-// (2004), section 4. The image is shaded in two passes, since software rasterizers run both sides of every branch:
-// d_buffer_select.frag.glsl decides pixels where no entry applies and marks the others by depth,
-// d_buffer_visibility.frag.glsl evaluates those.
+// In: surface points (once per camera), the filled D-buffer, a light. Out: V per pixel. "Umbra and penumbra
+// volumes" (2004), section 4. The image is shaded in two passes, since software rasterizers run both sides of
+// every branch: d_buffer_select.frag.glsl decides pixels where no entry applies and marks the others by
+// depth, d_buffer_visibility.frag.glsl evaluates those.
 #pragma once
 
 #include <cstdint>
@@ -22,35 +22,37 @@
 
 namespace penumbra::detail {
 
-/// How the visibility shader tells that a pixel's entries contradict what is known of the light's center: its output is
-/// then V + this, else V, and V lies in [0, 1]. The shader gets the number as UNCERTAIN_OFFSET; it must be at least 2.
+/// How the visibility shader tells that a pixel's entries contradict what is known of the light's center: its
+/// output is then V + this, else V, and V lies in [0, 1]. The shader gets the number as UNCERTAIN_OFFSET; it
+/// must be at least 2.
 inline constexpr int kUncertainOffset = 2;
 
-/// Decodes the output of the visibility shader: `output` becomes V. Returns the pixels that were marked as uncertain,
-/// ascending. Cost O(pixels).
+/// Decodes the output of the visibility shader: `output` becomes V. Returns the pixels that were marked as
+/// uncertain, ascending. Cost O(pixels).
 std::vector<std::uint32_t> take_uncertain_pixels(std::span<float> output);
 
 class VisibilityPass {
  public:
   explicit VisibilityPass(const gl::Functions& gl);
   ~VisibilityPass();
-  /// Uploads the surface points. `positions`: as from receiver_positions (casters.h). `rays` must outlive this.
+  /// Uploads the surface points. `positions`: as from receiver_positions (casters.h). `rays` must outlive
+  /// this.
   void set_surface(const Receivers& surface, std::vector<glm::vec4> positions, const RayScene& rays);
   bool has_surface() const { return width_ > 0; }
   int automatic_size() const { return d_buffer_size_for(width_, height_); }
 
-  /// Step 1: which receivers see the light's center, by one ray each. From it and the horizon follows the visibility
-  /// where no entry applies.
+  /// Step 1: which receivers see the light's center, by one ray each. From it and the horizon follows the
+  /// visibility where no entry applies.
   void trace_center(const DiskLight& light);
   /// Step 3: which receivers read what of the only target. Call trace_center before.
   ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
 
-  /// The parts of the image that shade has to visit, as from entries/tiles.h: all of it where the visibility without
-  /// entries is not known yet. `grid`: as from receiver_grid, or everywhere. Does not use OpenGL.
+  /// The parts of the image that shade has to visit, as from entries/tiles.h: all of it where the visibility
+  /// without entries is not known yet. `grid`: as from receiver_grid, or everywhere. Does not use OpenGL.
   std::vector<glm::vec2> tiles(const DBufferView& view, const ReceiverGrid& grid,
                                const EntryGeometry& geometry, const DBufferOptions& options) const;
-  /// Visibility of every pixel. `tiles`: as from this class; `records`: the buffer texture of EntryGeometry::records. The
-  /// framebuffer that is bound is used; its attachments are replaced.
+  /// Visibility of every pixel. `tiles`: as from this class; `records`: the buffer texture of
+  /// EntryGeometry::records. The framebuffer that is bound is used; its attachments are replaced.
   std::vector<float> shade(const DiskLight& light, const DBufferView& view,
                            const std::vector<glm::vec2>& tiles, const DBufferLayers& layers, GLuint records,
                            const DBufferOptions& options);
@@ -77,7 +79,8 @@ class VisibilityPass {
       mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   std::vector<glm::vec4> positions_, normals_;
-  /// Of each pixel: 1 where it sees the light's center, else 0; the disk's fraction above its horizon; V without entries.
+  /// Of each pixel: 1 where it sees the light's center, else 0; the disk's fraction above its horizon; V
+  /// without entries.
   std::vector<float> seen_, open_, without_entries_;
   std::vector<std::uint32_t> isolated_;
   Resampler resampler_;

@@ -1,10 +1,10 @@
 // Occlusion textures, step 1: from where the casters are seen, and into which slices they fall.
 //
-// In: casters, light, options. Out: a frustum with slices of equal thickness. "Occlusion textures" (2006), section 3.4 and
-// figure 5. The center of projection lies d behind the light,
-// and a point (x, y, z) of the light's frame is seen at q = (x, y) / (1 + z/d): where its line of sight meets
-// the light's plane. The frustum through the light's border is then the light itself in q, for every d, and
-// it contains a point when |q| ≤ half the light's extents, which gives the largest d that contains them all.
+// In: casters, light, options. Out: a frustum with slices of equal thickness. "Occlusion textures" (2006),
+// section 3.4 and figure 5. The center of projection lies d behind the light, and a point (x, y, z) of the
+// light's frame is seen at q = (x, y) / (1 + z/d): where its line of sight meets the light's plane. The
+// frustum through the light's border is then the light itself in q, for every d, and it contains a point when
+// |q| ≤ half the light's extents, which gives the largest d that contains them all.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -26,11 +26,11 @@ struct SliceSpace {
   glm::dvec2 half;
 };
 
-/// Accuracy: casters are cut where they are nearer to the light's plane than this, in the light's frame. Larger: more of
-/// them is lost (OcclusionTextures.HardCasesStayInRange).
+/// Accuracy: casters are cut where they are nearer to the light's plane than this, in the light's frame.
+/// Larger: more of them is lost.
 inline constexpr double kNearSlice = 0x1p-13;
-/// Accuracy: the widest tangent between a line of sight and the light's normal that an automatic offset accepts. Wider
-/// frusta waste texels on what is far from the light's axis (OcclusionTextures.ErrorOnTheFloor).
+/// Accuracy: the widest tangent between a line of sight and the light's normal that an automatic offset
+/// accepts. Wider frusta waste texels on what is far from the light's axis.
 inline constexpr double kWidestSlope = 4.0;
 
 struct DepthRange {

@@ -12,7 +12,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Accuracy and speed: boxes that a disk is divided into for OcclusionKernel::kDisk. Each is one more lookup a slice.
+/// Accuracy and speed: boxes that a disk is divided into for OcclusionKernel::kDisk. Each is one more lookup
+/// a slice.
 constexpr int kStrips = 5;
 
 /// Area of the unit disk left of the line at x.

@@ -1,10 +1,10 @@
 // Occlusion textures, step 5: how much of the light the slices leave, receiver by receiver.
 //
-// In: prefiltered slices, receivers in the light's frame. Out: V. "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4.
-// Seen from a receiver at depth z, the light covers one box on the plane at depth b: the light scaled by 1 - b/z, about the
-// receiver's position scaled by b/z. The mean of the slice's texture over that box is the part that the slice hides. Slices
-// that end behind the receiver do not count. The one that ends just before it fades in with the receiver's distance to its
-// plane, from 0 to 1 over one slice.
+// In: prefiltered slices, receivers in the light's frame. Out: V. "Occlusion textures" (2006), sections 3.1,
+// 3.3 and 3.4. Seen from a receiver at depth z, the light covers one box on the plane at depth b: the light
+// scaled by 1 - b/z, about the receiver's position scaled by b/z. The mean of the slice's texture over that
+// box is the part that the slice hides. Slices that end behind the receiver do not count. The one that ends
+// just before it fades in with the receiver's distance to its plane, from 0 to 1 over one slice.
 #pragma once
 
 #include <array>

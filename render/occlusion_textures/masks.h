@@ -1,8 +1,10 @@
-// Occlusion textures, steps 2 and 3: all slices in one rendering pass, each texel of each slice covered or not.
+// Occlusion textures, steps 2 and 3: all slices in one rendering pass, each texel of each slice covered or
+// not.
 //
-// In: casters, frustum. Out: the texels of every slice. "Occlusion textures" (2006), section 3.4: a fragment shader turns
-// depth into a color channel. Here fragments are joined by a bitwise OR instead of blending, so that a texel can also hold
-// one bit for each of eight samples (area coverage) and drawing order does not matter.
+// In: casters, frustum. Out: the texels of every slice. "Occlusion textures" (2006), section 3.4: a fragment
+// shader turns depth into a color channel. Here fragments are joined by a bitwise OR instead of blending, so
+// that a texel can also hold one bit for each of eight samples (area coverage) and drawing order does not
+// matter.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +40,8 @@ class OcclusionMasks {
   OcclusionMasks(const gl::Functions& gl, const std::vector<glm::vec3>& points,
                  const std::vector<std::uint32_t>& indices, std::vector<MaskRange> casters);
 
-  /// The uploaded points are at axes · point + offset in the light's frame. `drawings`: one a caster. Adds the stages slices
-  /// and read_back to the clock. Cost O(faces + texels · slices).
+  /// The uploaded points are at axes · point + offset in the light's frame. `drawings`: one a caster. Adds
+  /// the stages slices and read_back to the clock. Cost O(faces + texels · slices).
   std::vector<SliceTexels> draw(const SliceFrustum& frustum, const glm::mat3& axes, const glm::vec3& offset,
                                 const std::vector<CasterDrawing>& drawings, const OcclusionOptions& options,
                                 StageClock& clock);

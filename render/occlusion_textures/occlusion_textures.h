@@ -1,22 +1,22 @@
 // Occlusion textures: the scene x-rayed in slices parallel to the light, prefiltered, and looked up once a
 // slice and pixel.
 //
-// In: the scene's casters (uploaded once), surface points, a light, disk or rectangle. Out: visibility V of every surface
-// point. E. Eisemann and X. Décoret, "Plausible image based soft shadows using occlusion textures" (2006). The cost depends
-// neither on the light's size nor, but for drawing them once, on the casters. The steps of a frame, in order, with the stage
-// of --stats that they are timed as:
+// In: the scene's casters (uploaded once), surface points, a light, disk or rectangle. Out: visibility V of
+// every surface point. E. Eisemann and X. Décoret, "Plausible image based soft shadows using occlusion
+// textures" (2006). The cost depends neither on the light's size nor, but for drawing them once, on the
+// casters. The steps of a frame, in order, with the stage of --stats that they are timed as:
 //
-//   1 frustum     frustum.h                               from where and in which slices the casters are seen  (section 3.4)
-//   2 slices      masks.h                                 4 to 16 slices into 1 to 4 RGBA targets, one pass    (section 3.4)
-//   3 read_back   masks.h                                 texels to the processor
-//   4 prefilter   mip_pyramid.h, n_buffer.h, summed_area.h                                                     (section 3.2)
-//   5 visibility  lookup.h                                the light's image on each slice, and their combination
-//                                                                                                     (sections 3.1, 3.3)
+//   1 frustum     frustum.h     from where and in which slices the casters are seen          (section 3.4)
+//   2 slices      masks.h       4 to 16 slices into 1 to 4 RGBA targets, in one pass         (section 3.4)
+//   3 read_back   masks.h       texels to the processor
+//   4 prefilter   mip_pyramid.h, n_buffer.h or summed_area.h                                 (section 3.2)
+//   5 visibility  lookup.h      the light's image on each slice, and their combination (sections 3.1, 3.3)
 //
-// Departures. The window of the textures is fitted to the casters and keeps only the light's proportions (the paper's is the
-// light itself): no texel is wasted, and kernels that jut out of it are clipped exactly. Prefilters and lookups are C++ on
-// all cores, which without a GPU is faster than shaders. Only faces that look at the center of projection are drawn where
-// that suffices (SliceFaces). The receiver's horizon is combined like one more slice.
+// Departures. The window of the textures is fitted to the casters and keeps only the light's proportions (the
+// paper's is the light itself): no texel is wasted, and kernels that jut out of it are clipped exactly.
+// Prefilters and lookups are C++ on all cores, which without a GPU is faster than shaders. Only faces that
+// look at the center of projection are drawn where that suffices (SliceFaces). The receiver's horizon is
+// combined like one more slice.
 #pragma once
 
 #include <memory>
@@ -115,14 +115,14 @@ struct OcclusionFrame {
 
 class OcclusionTextures {
  public:
-  /// Uploads the casters. `context`, `scene` and `rays` must outlive this; the context is made current by each call.
-  /// Of `rays` only the scale and the threads are used.
+  /// Uploads the casters. `context`, `scene` and `rays` must outlive this; the context is made current by
+  /// each call. Of `rays` only the scale and the threads are used.
   OcclusionTextures(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~OcclusionTextures();
-  /// Visibility of receivers that are a picture's pixels and have normals, under a light that has an extent. Everything is
-  /// made anew: slices, prefilters, lookups. Nothing behind the light's plane casts, and what is closer to it than 1/8192 of
-  /// the scene is cut off. Throws UsageError for options outside their range, SystemError where OpenGL fails, Cancelled.
-  /// Cost O(faces + texels · slices + pixels · slices).
+  /// Visibility of receivers that are a picture's pixels and have normals, under a light that has an extent.
+  /// Everything is made anew: slices, prefilters, lookups. Nothing behind the light's plane casts, and what
+  /// is closer to it than 1/8192 of the scene is cut off. Throws UsageError for options outside their range,
+  /// SystemError where OpenGL fails, Cancelled. Cost O(faces + texels · slices + pixels · slices).
   OcclusionFrame render(const AreaLight& light, const Receivers& surface, const OcclusionOptions& options,
                         const Progress& progress = {});
 

@@ -1,7 +1,8 @@
-// Occlusion textures, step 4: rectangles of a texture, in texels. Texel (i, j) is the square [i, i+1) × [j, j+1).
+// Occlusion textures, step 4: rectangles of a texture, in texels. Texel (i, j) is the square [i, i+1) × [j,
+// j+1).
 //
-// Every prefilter has `covered(box)`: the integral of the texture (0 to 1) over the box, in texels². The box may jut out of
-// the texture or be larger than it. Outside the texture is empty; nothing wraps around.
+// Every prefilter has `covered(box)`: the integral of the texture (0 to 1) over the box, in texels². The box
+// may jut out of the texture or be larger than it. Outside the texture is empty; nothing wraps around.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +47,8 @@ struct TexelSquare {
   double x, y, side;
 };
 
-/// Speed: squares that a long box is read by, at most. Beyond it they are taken larger than the box is wide, which blurs.
+/// Speed: squares that a long box is read by, at most. Beyond it they are taken larger than the box is wide,
+/// which blurs.
 inline constexpr int kMostSquares = 16;
 
 /// What of [from, from + length) lies in [0, size], as an interval of length `size`; length > size.

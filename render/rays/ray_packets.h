@@ -1,8 +1,8 @@
 // Rays against the casters: sixteen at a time for occlusion, one by one for the first face on the way.
 //
-// In: origins and directions in the frame of the rays (RayFrame), float. Out: whether a face lies on the way, or which.
-// Methods trace with these; Embree itself is included by render/rays only. The orientation of faces does not matter.
-// Any number of threads may trace at once, best inside of RayScene::arena().
+// In: origins and directions in the frame of the rays (RayFrame), float. Out: whether a face lies on the way,
+// or which. Methods trace with these; Embree itself is included by render/rays only. The orientation of faces
+// does not matter. Any number of threads may trace at once, best inside of RayScene::arena().
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace penumbra::detail {
 
-/// Sixteen rays. A packet is made once and used again and again: what stays the same from call to call is set once.
-/// Embree reads and writes it in place; the order of the arrays is Embree's.
+/// Sixteen rays. A packet is made once and used again and again: what stays the same from call to call is set
+/// once. Embree reads and writes it in place; the order of the arrays is Embree's.
 struct RayPacket {
   static constexpr std::size_t kRays = 16;
 
@@ -56,8 +56,8 @@ struct RayHit {
   std::uint32_t object, face;
 };
 
-/// The first face of a caster that the ray meets before `end` (in units of the direction, may be infinite). None where
-/// it meets none. Cost O(log faces).
+/// The first face of a caster that the ray meets before `end` (in units of the direction, may be infinite).
+/// None where it meets none. Cost O(log faces).
 std::optional<RayHit> first_hit(const RayScene& rays, const glm::vec3& from, const glm::vec3& way, float end);
 
 }  // namespace penumbra::detail

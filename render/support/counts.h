@@ -10,8 +10,8 @@
 
 namespace penumbra {
 
-/// One figure of a frame and its name. An integer is a number of things or bytes, a double is a length in scene
-/// units, a string is a word in place of a number.
+/// One figure of a frame and its name. An integer is a number of things or bytes, a double is a length in
+/// scene units, a string is a word in place of a number.
 struct Count {
   std::string name;
   std::variant<std::uint64_t, double, std::string> value;

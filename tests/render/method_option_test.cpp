@@ -151,6 +151,9 @@ TEST(MethodOptions, KeepTheirDomains) {
       ++options;
       EXPECT_FALSE(option.help.empty()) << what;
       EXPECT_NO_THROW(option.require_allowed(option.usual)) << what << "the default";
+      if (option.draft) {
+        EXPECT_NO_THROW(option.require_allowed(*option.draft)) << what << "the draft";
+      }
       const Limits limits = std::visit(LimitsOf(), option.domain);
       for (const OptionValue& value : limits.inside) {
         EXPECT_NO_THROW(option.require_allowed(value)) << what << to_text(value);

@@ -191,7 +191,7 @@ TEST(Renderer, DraftsFollowTheLight) {
     Renderer keeping(scene);
     keeping.render(each.options);
     Scene moved = scene;
-    testing::light_of(moved).center.x += 0.2;
+    testing::light_of(moved).center.x += 0.6;
     const testing::Values before = render(scene, each.options).image.at("visibility"),
                           after = render(moved, each.options).image.at("visibility");
     keeping.set_light(0, moved.lights[0]);

@@ -111,6 +111,9 @@ TEST_P(InAnyOrder, ReceiversSeeTheSameToTheBit) {
         name, method.c_str(), straight.ms, mixed.ms, from_pixels, double{most});
     EXPECT_EQ(differ, 0u) << name;
     EXPECT_EQ(regions_differ, 0u) << name;
+    // The reference has other samples for pixels: two estimates from 64 rays. The others only group receivers
+    // otherwise.
+    EXPECT_LE(most, method == "reference" ? 0.25f : 1e-5f) << name;
     EXPECT_EQ(a.region.empty(), !method_named(method).certifies);
   }
 }
@@ -149,12 +152,14 @@ TEST(Visibility, WithoutNormalsIsWithoutAHorizon) {
       partly += with.unoccluded[i] > 0.0f && with.unoccluded[i] < 1.0f;
       cut += with.visibility[i] < with.unoccluded[i];
       EXPECT_LE(with.visibility[i], with.unoccluded[i] + 1e-5f) << method << ", " << i;
-      // A ray of 64 may pass an edge on the other side.
       differ += std::abs(with.unoccluded[i] - without.visibility[i]) > 1e-3f;
     }
+    std::printf("%s: %zu of %zu partly lit, %zu with a horizon; %zu differ without normals\n", method, partly,
+                points.points.size(), cut, differ);
     EXPECT_GT(partly, 1'000u) << method;
     EXPECT_GT(cut, 5'000u) << method;
-    EXPECT_LE(differ, 20u) << method;
+    // Of 64 × 20,000 rays one in 25,000 passes an edge on the other side.
+    EXPECT_LE(differ, method == std::string("reference") ? 50u : 0u) << method;
   }
 }
 

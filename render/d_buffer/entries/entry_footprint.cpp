@@ -15,8 +15,8 @@ Uvw project(const Vec3& p) {
 
 constexpr float kUnlimited = std::numeric_limits<float>::infinity();
 
-/// Accuracy. Boundaries are drawn so many times as far as rays found them to reach, since rays probe a few points only
-/// (Resampler.LessensTheError, DBufferScenes).
+/// Accuracy. Boundaries are drawn so many times as far as rays found them to reach, since rays probe a few
+/// points only (Resampler.LessensTheError, DBufferScenes).
 constexpr double kMargin = 1.05;
 /// Accuracy: the point of a sliver moves outward by at most so many dilations, lest it hide its neighbors.
 constexpr double kLongestMiter = 3.0;
@@ -89,7 +89,8 @@ std::optional<std::array<Uvw, 3>> EntryFootprints::gap(const GapFace& gap) const
   return corners;
 }
 
-/// Moves a triangle's sides outward by the dilation; the points of slivers by at most kLongestMiter times as much.
+/// Moves a triangle's sides outward by the dilation; the points of slivers by at most kLongestMiter times as
+/// much.
 void EntryFootprints::grow(std::array<Uvw, 3>& corners) const {
   glm::dvec2 out[3];  // of the side from corner k to the next
   const auto next = [](std::size_t k) { return (k + 1) % 3; };

@@ -1,9 +1,9 @@
 // D-buffer step 4: what facets, cone sectors and gap faces cover, seen from the light's center.
 //
-// In: a caster's supports in world space. Out: polygons in (u, v, w) = (x/z, y/z, 1/z) of the light's frame, dilated so
-// that every texel they touch is drawn. There the plane that touches the disk of radius r at rim angle φ is
-// w = (cos φ u + sin φ v + κ)/r: it has the slope 1/r for every edge. The boundary at a vertex is a circular cone of that
-// slope, with its apex at the vertex.
+// In: a caster's supports in world space. Out: polygons in (u, v, w) = (x/z, y/z, 1/z) of the light's frame,
+// dilated so that every texel they touch is drawn. There the plane that touches the disk of radius r at rim
+// angle φ is w = (cos φ u + sin φ v + κ)/r: it has the slope 1/r for every edge. The boundary at a vertex is
+// a circular cone of that slope, with its apex at the vertex.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace penumbra::detail {
 
-/// World → the light's frame: axes u, v, w of the light, origin its center, lengths times a power of two. All that the
-/// D-buffer draws is in this frame.
+/// World → the light's frame: axes u, v, w of the light, origin its center, lengths times a power of two. All
+/// that the D-buffer draws is in this frame.
 struct LightSpace {
   LightSpace(const DiskLight& light, double scale_factor);
   Vec3 to_light(const Vec3& world) const;
@@ -68,8 +68,8 @@ class EntryFootprints {
     std::array<Uvw, 4> corners;
     double from_weight, to_weight;
   };
-  /// Of facet i of the supports. `reach`: as from facet_reach.h. The facet ends at 1/z = `far_weight` if that is greater
-  /// than the options'.
+  /// Of facet i of the supports. `reach`: as from facet_reach.h. The facet ends at 1/z = `far_weight` if that
+  /// is greater than the options'.
   std::optional<Facet> facet(std::uint32_t i, float reach, double far_weight) const;
 
   /// The circle that the whole cone covers; 1/z falls from the apex to all sides.
@@ -107,8 +107,9 @@ inline UvBounds uv_bounds_of(const EntryFootprints::Cone& cone) {
   return {cone.apex.uv - cone.radius, cone.apex.uv + cone.radius};
 }
 
-/// How many rays it takes to find the reach of each facet (see facet_reach.h): 0 to 3. 0 where no receiver would read the
-/// facet or a gap face beside it, even if nothing cut it short. Cost O(facets + gaps), on all cores.
+/// How many rays it takes to find the reach of each facet (see facet_reach.h): 0 to 3. 0 where no receiver
+/// would read the facet or a gap face beside it, even if nothing cut it short. Cost O(facets + gaps), on all
+/// cores.
 std::vector<std::uint8_t> count_facet_probes(const EntryFootprints& footprints, const Supports& supports,
                                              const std::vector<GapFace>& gaps, const ReceiverGrid& receivers);
 /// The same for cone sectors.

@@ -14,10 +14,11 @@ namespace {
 
 // Accuracy (DBufferScenes, Resampler.LessensTheError).
 
-/// Rays pass an edge at this distance on its lit side, in the frame of the rays: above the noise of floats, which would
-/// make the edge hide itself, and below any feature that counts.
+/// Rays pass an edge at this distance on its lit side, in the frame of the rays: above the noise of floats,
+/// which would make the edge hide itself, and below any feature that counts.
 constexpr double kClearance = 2.0 * kRayOffset;
-/// A hit nearer than this part of the way to the edge hides the edge. A later one is a face at the edge itself.
+/// A hit nearer than this part of the way to the edge hides the edge. A later one is a face at the edge
+/// itself.
 constexpr float kHidden = 1.0f - 1e-3f;
 
 constexpr float kForever = std::numeric_limits<float>::infinity();

@@ -1,8 +1,10 @@
-// D-buffer step 4: facets, cone sectors and gap faces as triangles to draw, and a record a facet for the shader.
+// D-buffer step 4: facets, cone sectors and gap faces as triangles to draw, and a record a facet for the
+// shader.
 //
-// In: footprints, reach, who will read the D-buffer. Out: EntryGeometry. In the coordinates of entry_footprint.h
-// everything is flat, so depth is linear on the screen. The 2004 paper (section 3.2) interpolates distances, which are
-// not, and accepts the error. Gap faces are the paper's silhouette faces (section 3.3).
+// In: footprints, reach, who will read the D-buffer. Out: EntryGeometry. In the coordinates of
+// entry_footprint.h everything is flat, so depth is linear on the screen. The 2004 paper (section 3.2)
+// interpolates distances, which are not, and accepts the error. Gap faces are the paper's silhouette faces
+// (section 3.3).
 #pragma once
 
 #include <cstdint>
@@ -26,9 +28,9 @@ struct EntryVertex {
 struct EntryGeometry {
   /// Triangles, three vertices each.
   std::vector<EntryVertex> penumbra, umbra;
-  /// Four points a facet in the light's frame: the begin of the previous edge, the edge's ends a and b, the end of the
-  /// next edge. Directed so that the lit side is positive (SupportFacet::flipped). The fourth number of the first point is
-  /// 1 + the previous facet, of the last 1 + the next; 0: none.
+  /// Four points a facet in the light's frame: the begin of the previous edge, the edge's ends a and b, the
+  /// end of the next edge. Directed so that the lit side is positive (SupportFacet::flipped). The fourth
+  /// number of the first point is 1 + the previous facet, of the last 1 + the next; 0: none.
   std::vector<glm::vec4> records;
 };
 
@@ -41,12 +43,12 @@ struct EntrySource {
   const ReceiverGrid& receivers;
 };
 
-/// Adds one caster. What no receiver reads is left out, what goes on behind the last of them is cut short. Cost
-/// O(facets + cone segments), on all cores.
+/// Adds one caster. What no receiver reads is left out, what goes on behind the last of them is cut short.
+/// Cost O(facets + cone segments), on all cores.
 void append_entry_geometry(const EntrySource& source, EntryGeometry& out);
 
-/// Sorts the triangles by their own coordinates, nearest to the light first. Which of two at the same depth a texel keeps
-/// then depends on where they are, not on how the mesh lists them. Cost O(n log n), on all cores.
+/// Sorts the triangles by their own coordinates, nearest to the light first. Which of two at the same depth a
+/// texel keeps then depends on where they are, not on how the mesh lists them. Cost O(n log n), on all cores.
 void sort_by_geometry(EntryGeometry& entries);
 
 }  // namespace penumbra::detail

@@ -12,7 +12,8 @@ namespace penumbra::detail {
 namespace {
 
 constexpr int kCells = ReceiverGrid::kCells;
-/// Speed: an answer looks at so many cells a side at most, of the finest level that allows it (d_buffer_bench).
+/// Speed: an answer looks at so many cells a side at most, of the finest level that allows it
+/// (d_buffer_bench).
 constexpr int kMostCells = 4;
 constexpr float kNobody = std::numeric_limits<float>::infinity();
 

@@ -1,9 +1,11 @@
-// D-buffer step 3: which parts of the D-buffer the image's receivers will read. Nothing is drawn for the others.
+// D-buffer step 3: which parts of the D-buffer the image's receivers will read. Nothing is drawn for the
+// others.
 //
-// In: receivers, and which of them see the light's center. Out: for any rectangle of (x/z, y/z) the 1/z down to which
-// entries are read there. A texel is read only by receivers on its line of sight. Those that see the light's center read
-// penumbra entries, the others umbra entries. An entry counts only for receivers behind it. So a boundary changes no pixel
-// if its bounds hold no such receiver, and need not go on behind the farthest that they hold. Not in the 2004 paper.
+// In: receivers, and which of them see the light's center. Out: for any rectangle of (x/z, y/z) the 1/z down
+// to which entries are read there. A texel is read only by receivers on its line of sight. Those that see the
+// light's center read penumbra entries, the others umbra entries. An entry counts only for receivers behind
+// it. So a boundary changes no pixel if its bounds hold no such receiver, and need not go on behind the
+// farthest that they hold. Not in the 2004 paper.
 #pragma once
 
 #include <array>
@@ -20,8 +22,8 @@
 
 namespace penumbra::detail {
 
-/// The image's receivers, positions in the caster frame (the fourth number is 0 where nothing is seen); axes · p + offset
-/// is in the light's frame.
+/// The image's receivers, positions in the caster frame (the fourth number is 0 where nothing is seen); axes
+/// · p + offset is in the light's frame.
 struct ImageReceivers {
   int width, height;
   std::span<const glm::vec4> positions;
@@ -41,8 +43,8 @@ struct UvBounds {
 class ReceiverGrid {
  public:
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  /// Speed: cells a side of the grid over the target's window. More: fewer boundaries are drawn in vain, and the grid
-  /// takes longer to make (d_buffer_bench). At most 256, see Reads.
+  /// Speed: cells a side of the grid over the target's window. More: fewer boundaries are drawn in vain, and
+  /// the grid takes longer to make (d_buffer_bench). At most 256, see Reads.
   static constexpr int kCells = 256;
 
   /// What one pixel reads.
@@ -56,14 +58,15 @@ class ReceiverGrid {
 
   /// Receivers everywhere, as far away as can be: every entry may be read.
   ReceiverGrid() = default;
-  /// The receivers of an image in the only target. `seen`: as from CenterRays::center_seen; `normals`: in world axes;
-  /// `size`: texels a side of the target; `radius`: of the disk, in the light's frame. Cost O(pixels), on all cores.
+  /// The receivers of an image in the only target. `seen`: as from CenterRays::center_seen; `normals`: in
+  /// world axes; `size`: texels a side of the target; `radius`: of the disk, in the light's frame. Cost
+  /// O(pixels), on all cores.
   ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals, std::span<const float> seen,
                const Target& target, int size, double radius);
 
   bool is_everywhere() const { return levels_.empty(); }
-  /// A lower bound of 1/z of the receivers within `bounds` that read entries of this kind: what has no greater 1/z is not
-  /// read there. kNone where there is no such receiver. Cost O(1).
+  /// A lower bound of 1/z of the receivers within `bounds` that read entries of this kind: what has no
+  /// greater 1/z is not read there. kNone where there is no such receiver. Cost O(1).
   double least_weight(SupportKind kind, const UvBounds& bounds) const;
   /// One a pixel; none for receivers everywhere.
   std::span<const Reads> reads() const { return reads_; }

@@ -9,9 +9,10 @@
 
 namespace penumbra::detail {
 
-/// Rectangles of the image in clip coordinates, two triangles each. They cover every receiver that may read an entry: one
-/// of the kind that it reads, in a texel that the entry's triangle may touch, by the bounds of triangles on a coarse grid.
-/// Precondition: `receivers` are not everywhere. Cost O(pixels + triangles), on all cores.
+/// Rectangles of the image in clip coordinates, two triangles each. They cover every receiver that may read
+/// an entry: one of the kind that it reads, in a texel that the entry's triangle may touch, by the bounds of
+/// triangles on a coarse grid. Precondition: `receivers` are not everywhere. Cost O(pixels + triangles), on
+/// all cores.
 std::vector<glm::vec2> tiles_with_entries(const ImageReceivers& image, const ReceiverGrid& receivers,
                                           const EntryGeometry& entries, const Target& target);
 

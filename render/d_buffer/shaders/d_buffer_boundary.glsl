@@ -1,9 +1,9 @@
 // D-buffer step 7: a boundary of the shadow as the receiver sees it on the disk.
 //
-// In: the facet of an entry and the receiver. Out: the area of the disk on the boundary's lit side. The boundary is followed
-// from the entry's edge to its neighbors' edges, as far as they lie in the disk. Exact for one line of edges, convex or not,
-// and for one that closes within the disk. Not in the 2004 paper, which takes the boundary for one straight line (section 2.3).
-// Needs disk_area.glsl and d_buffer_lookup.glsl.
+// In: the facet of an entry and the receiver. Out: the area of the disk on the boundary's lit side. The boundary is
+// followed from the entry's edge to its neighbors' edges, as far as they lie in the disk. Exact for one line of edges,
+// convex or not, and for one that closes within the disk. Not in the 2004 paper, which takes the boundary for one
+// straight line (section 2.3). Needs disk_area.glsl and d_buffer_lookup.glsl.
 
 float cross2(vec2 p, vec2 q) { return p.x * q.y - p.y * q.x; }
 
@@ -56,8 +56,8 @@ bool meets_disk(vec2 p, vec2 q) {
 // (DBufferBoundary, DBufferScenes).
 const int kMostSteps = 16;
 
-// From p, in the disk and on the edge's line, past its end b, `pb` on the disk; `side` of its record is what comes then:
-// 3, or 0 where b is the edge's begin.
+// From p, in the disk and on the edge's line, past its end b, `pb` on the disk; `side` of its record is what comes
+// then: 3, or 0 where b is the edge's begin.
 Walk walk_past(uint facet, uint other, int side, vec2 p, vec2 way, vec3 a, vec3 b, vec2 pb, vec3 x) {
   Walk w = Walk(p, 0.0, false, false, facet, false, kNoEdge, 0.0, false, false);
   vec4 far = texelFetch(records, int(4u * facet) + side);

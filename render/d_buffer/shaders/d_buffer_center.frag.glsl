@@ -1,6 +1,6 @@
 #version 450 core
-// D-buffer step 1 without rays (CenterTest::kDepth): whether a receiver sees the light's center, by the depth of the first
-// surface in its texel, as the 2004 paper does. A receiver whose horizon is above the center counts as seeing it.
+// D-buffer step 1 without rays (CenterTest::kDepth): whether a receiver sees the light's center, by the depth of the
+// first surface in its texel, as the 2004 paper does. A receiver whose horizon is above the center counts as seeing it.
 // TARGETS: number of targets.
 #include "d_buffer_lookup.glsl"
 

@@ -1,6 +1,6 @@
 #version 450 core
-// D-buffer step 6: what a texel keeps of an entry. That is 1 + its facet or, for the 2004 paper's own contents, the bits of
-// the 1/z of its edge; the depth test keeps its depth.
+// D-buffer step 6: what a texel keeps of an entry. That is 1 + its facet or, for the 2004 paper's own contents, the
+// bits of the 1/z of its edge; the depth test keeps its depth.
 //
 // Defined from outside (fill_passes.cpp):
 //   SURFACE  0: every entry is kept; 1: those in front of the surface; 2: those behind it

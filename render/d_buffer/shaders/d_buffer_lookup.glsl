@@ -1,9 +1,10 @@
-// The D-buffer seen from a receiver: which texel, whether the light's center is hidden, which entries apply. Everything is
-// in the light's frame: the disk in z = 0 about the origin. Needs TARGETS, the number of targets.
+// The D-buffer seen from a receiver: which texel, whether the light's center is hidden, which entries apply. Everything
+// is in the light's frame: the disk in z = 0 about the origin. Needs TARGETS, the number of targets.
 
 const int kMaxTargets = 5;
 const uint kEmpty = 0u;        // ids are stored plus one
-// Accuracy: heights above the receiver's plane that float cannot tell from 0, relative to depth (DBuffer.CastersOwnSurfaceIsClean).
+// Accuracy: heights above the receiver's plane that float cannot tell from 0, relative to depth
+// (DBuffer.CastersOwnSurfaceIsClean).
 const float kOnPlane = 1e-5;
 
 uniform sampler2D surface_position;   // caster frame; the fourth number is 1 + the face's number, 0: nothing seen
@@ -18,7 +19,8 @@ uniform usampler2DArray second_entry;     // the second nearest, where two are k
 uniform sampler2DArray second_depth;
 uniform samplerBuffer records;            // four points a facet: previous, a, b, next; .w of the outer: 1 + facet
 
-// Kinds of entries: of the penumbra, in front of the first surface; of the umbra, in front of the last surface or behind it.
+// Kinds of entries: of the penumbra, in front of the first surface; of the umbra, in front of the last surface or
+// behind it.
 const int kPenumbra = 0, kAbove = 1, kBelow = 2;
 
 uniform mat3 light_axes;     // caster frame → light's frame
@@ -29,7 +31,8 @@ const int target_count = TARGETS;
 uniform mat3 target_axes[kMaxTargets];
 uniform vec4 target_window[kMaxTargets];
 
-// Accuracy: a surface has to be so many texels above the receiver's plane to count as before it (DBuffer.CastersOwnSurfaceIsClean).
+// Accuracy: a surface has to be so many texels above the receiver's plane to count as before it
+// (DBuffer.CastersOwnSurfaceIsClean).
 const float kBias = 0.75;
 
 struct Receiver {
@@ -68,8 +71,8 @@ Texel texel_of(vec3 x) {
   return Texel(ivec3(texel, outside ? -1 : best), transpose(target_axes[best]) * center, max(size.x, size.y) / count.x);
 }
 
-// 1/z of what a depth texture holds at the texel: depth is near · weight / forward, and a texel's direction has forward 1
-// and z = direction.z.
+// 1/z of what a depth texture holds at the texel: depth is near · weight / forward, and a texel's direction has forward
+// 1 and z = direction.z.
 float weight_of(float depth, Texel t) { return depth / (near_depth * t.direction.z); }
 
 // Whether a surface of the given 1/z at the texel lies above the receiver's face, as far as texels can tell: within a

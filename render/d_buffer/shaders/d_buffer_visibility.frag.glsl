@@ -1,6 +1,6 @@
 #version 450 core
-// D-buffer step 7, second pass: visibility of the disk by the D-buffer's entries, at the pixels that the first pass marked.
-// "Umbra and penumbra volumes" (2004), section 4.
+// D-buffer step 7, second pass: visibility of the disk by the D-buffer's entries, at the pixels that the first pass
+// marked. "Umbra and penumbra volumes" (2004), section 4.
 //
 // Defined from outside (visibility_pass.cpp):
 //   TARGETS   number of targets
@@ -55,8 +55,8 @@ struct Share {
 };
 const Share kNoShare = Share(-1.0, kWholeDisk, false, false);
 
-// Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what is
-// known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
+// Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what
+// is known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
 Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
   int first = int(4u * facet);
   vec3 a = texelFetch(records, first + 1).xyz, b = texelFetch(records, first + 2).xyz;
@@ -76,8 +76,9 @@ Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
   return Share(two_half_planes_area(chord, horizon), chord, false, uncertain);
 }
 
-// The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the same
-// with |cxpv| in the other; with every distance along one line written as 1/weight it is (entry - x) / (2 (edge - x)).
+// The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the
+// same with |cxpv| in the other; with every distance along one line written as 1/weight it is (entry - x) / (2 (edge -
+// x)).
 Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   float edge = uintBitsToFloat(e.content);
   if (r.weight >= e.weight || edge <= r.weight) return kNoShare;

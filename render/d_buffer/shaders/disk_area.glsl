@@ -1,5 +1,5 @@
-// How much of the disk chords leave. The twin of render/light/disk_area.h: the same formulas in float. gl_test.cpp runs both
-// on the same points.
+// How much of the disk chords leave. The twin of render/light/disk_area.h: the same formulas in float. gl_test.cpp runs
+// both on the same points.
 
 const float kPi = 3.14159265358979;
 

@@ -1,5 +1,5 @@
-// The boundary that the visibility shader follows from edge to edge: exact areas of plane casters, with no
-// rays asked.
+// The boundary that the visibility shader follows from edge to edge: exact areas of plane casters, without
+// resampling by rays.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -27,7 +27,7 @@ Values draw(const Scene& scene, const SurfaceBuffer& surface, const OcclusionOpt
             int threads = 0) {
   const RayScene rays(scene, threads);
   OcclusionTextures textures(context(), scene, rays);
-  return textures.render(area_light(scene.lights.front().shape), surface, options).visibility;
+  return textures.render(area_light(scene.lights.front().shape), surface.receivers(), options).visibility;
 }
 
 /// A rectangular light in z = 0 that shines towards +z, and casters.
