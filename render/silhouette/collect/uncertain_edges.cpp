@@ -14,7 +14,7 @@ namespace {
 
 // Accuracy.
 /// The largest margin of an edge that counts as itself, over the slack of the certificate, which covers it.
-/// Held by the test MergedFaces.CertificatesHoldToTheLast.
+/// Held by the test UncertainEdges.CertificatesHoldToTheLast.
 constexpr double kStraight = 1e-3;
 
 /// 1 where only fronts of a side's faces are seen from a box of receivers, -1 where only backs, 0 where

@@ -17,7 +17,7 @@
 namespace penumbra::detail {
 
 /// Accuracy. The margin of sums in float, over the largest coordinate. Held by the tests SceneEdges,
-/// EdgeBlocks and MergedLanes.
+/// EdgeBlocks and MergedEdgeTests.
 inline constexpr double kBoundsGrain = 0x1p-17;
 
 /// Bounds of eight blocks, a lane each. Ranges are given by their middle and half of their width.

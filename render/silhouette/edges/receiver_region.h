@@ -68,7 +68,7 @@ class ReceiverRegion {
 
    private:
     /// Accuracy. What rounding to float adds to a coordinate. Held by the test
-    /// SceneEdges.LoseNothingThatAReceiverSees.
+    /// ReceiverRegion.LoseNothingThatAReceiverSees.
     static constexpr float kPointGrain = 0x1p-23f;
     Vec3 at_, normal_;
     SplitPoint split_;

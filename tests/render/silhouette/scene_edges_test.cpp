@@ -9,8 +9,6 @@
 #include "penumbra/mesh/shapes.h"
 #include "penumbra/volumes/silhouettes.h"
 #include "render/rays/ray_scene.h"
-#include "render/silhouette/collect/light_band.h"
-#include "render/silhouette/edges/point_groups.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra::detail {
@@ -116,7 +114,7 @@ TEST(SceneEdges, KeepWhatTouches) {
   expect_all_found(scene, edges, testing::light_of(scene));
 }
 
-TEST(SceneEdges, LeaveOutIdleObjectsAndThoseThatDoNotCast) {
+TEST(SceneEdges, LeaveOutObjectsThatCannotOccludeOrDoNotCast) {
   Random random(62);
   const Scene scene = random_scene(random, Vec3(0.0), 1.0);
   const SceneEdges edges = edges_of(scene);
@@ -150,66 +148,6 @@ TEST(SceneEdges, OfNothingAreNone) {
   Scene scene = testing::scene_in_light_frame(1.0, {});
   EXPECT_TRUE(edges_of(scene).band_of(testing::light_of(scene), {}).empty());
   EXPECT_EQ(edges_of(scene).size(), 0u);
-}
-
-/// However near a point lies to a plane, and both far from the origin.
-TEST(LocalPlanes, DismissOnlyEdgesWithBothFacesOnOneSide) {
-  Random random(79);
-  std::size_t dismissed = 0, near = 0, known = 0;
-  for (int round = 0; round < 20000; ++round) {
-    LocalPlanes block;
-    const Vec3 place = random.point();
-    block.origin = FloatBox(place, Vec3(0.0)).middle;
-    const Vec3 x = place + random.spread(1e-6, 4.0) * random.direction();
-    std::array<BandEdge, kFloatLanes> edges;
-    for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-      BandEdge& e = edges[lane];
-      for (FacePlane* plane : {&e.left, &e.right}) {
-        const Vec3 normal = random.direction();
-        const double off = random.spread(1e-14, 1.0) * (random.uniform(0, 1) < 0.5 ? -1.0 : 1.0);
-        *plane = {normal, off - glm::dot(normal, x), 0x1p-44};
-      }
-      if (round % 5 == 0) e.right = kNoFace;
-      block.set(lane, e);
-    }
-    const std::uint32_t kept = may_be_silhouettes(block, SplitPoint(x));
-    for (std::size_t lane = 0; lane < kFloatLanes; ++lane) {
-      const double left = edges[lane].left.value(x), right = edges[lane].right.value(x);
-      const double nearest = std::min(std::abs(left), std::abs(right));
-      const bool same = edges[lane].has_right() && (left > 0.0) == (right > 0.0);
-      if (!(kept >> lane & 1)) {
-        ++dismissed;
-        near += nearest < 1e-6 ? 1 : 0;
-        ASSERT_TRUE(same) << left << " " << right;
-      } else if (same && nearest > 1e-5 * (1.0 + glm::distance(x, place))) {
-        ADD_FAILURE() << "not known: " << left << " " << right;
-      }
-      known += same ? 1 : 0;
-    }
-  }
-  EXPECT_GT(near, 5000u) << "of " << dismissed << ", of " << known << " that might be";
-}
-
-TEST(PointGroups, HaveTheBoxOfAllPoints) {
-  Random random(80);
-  for (int round = 0; round < 200; ++round) {
-    const Vec3 middle = round % 3 == 0 ? 1e6 * random.point() : random.point();
-    const double size = random.spread(1e-3, 1e3);
-    std::vector<Vec3> points;
-    for (int i = 0; i < 1 + 37 * round; ++i) {
-      const Vec3 p = round % 2 == 0 ? random.direction() : random.point();
-      points.push_back(middle + size * p);
-    }
-    if (round % 4 == 0)  // neighbors in a row
-      std::ranges::sort(points, {}, [](const Vec3& p) { return p.x; });
-    const UnitLight light(
-        DiskLight{middle + 5.0 * size * random.point(), random.direction(), size * random.spread(1e-3, 1.0)});
-    Bounds box;
-    for (const Vec3& p : points) box.add(light.point(p));
-    const Bounds found = PointGroups(points).box_in(light);
-    ASSERT_EQ(found.low, box.low) << round;
-    ASSERT_EQ(found.high, box.high) << round;
-  }
 }
 
 }  // namespace
