@@ -1,6 +1,8 @@
 // penumbra compare: how wrong an image is, against another image or against rays traced from its scene.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <span>
+#include <vector>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/compare_picture.h"
@@ -25,7 +27,7 @@ over pixels.)";
 struct Arguments {
   CommonOptions common;
   SceneInput scene;
-  std::filesystem::path image, picture, signed_difference;
+  std::filesystem::path image, beside, picture, signed_difference;
   TraceOptions trace;
   Judged judged;
   bool json = false;
@@ -37,6 +39,7 @@ struct Arguments {
 
 void check(const Arguments& arguments) {
   require_extension("A", arguments.image, {".exr"}, false);
+  if (!arguments.beside.empty()) require_extension("--beside", arguments.beside, {".exr"}, false);
   const std::pair<const char*, const std::filesystem::path*> pictures[] = {
       {"--picture", &arguments.picture}, {"--signed-difference", &arguments.signed_difference}};
   for (const auto& [option, path] : pictures) {
@@ -112,35 +115,49 @@ std::string scale_line(double scale) {
   return line;
 }
 
-void write_pictures(const Arguments& arguments, const Image& image, const Image* reference,
-                    const Comparison& comparison) {
+void write_pictures(const Arguments& arguments, std::span<const JudgedImage> images, const Image* reference) {
   const auto write = [](const std::filesystem::path& path, const Picture& picture) {
     write_png(path, picture.width(), picture.height(), picture.rgb());
   };
   if (!arguments.signed_difference.empty())
-    write(arguments.signed_difference, difference_picture(image, comparison, difference_scale(comparison)));
+    write(arguments.signed_difference,
+          difference_picture(images.front(), difference_scale(images.front().comparison)));
   if (!arguments.picture.empty())
     write(arguments.picture,
-          side_by_side(image, arguments.image.stem().string(), reference,
-                       arguments.scene.path.stem().string(), comparison, arguments.exposure));
+          side_by_side(images, reference, arguments.scene.path.stem().string(), arguments.exposure));
 }
 
 void run(const Arguments& arguments) {
   check(arguments);
   const ThreadLimit limit(arguments.common.threads);
-  const Image image = read_exr(arguments.image);
   std::optional<Image> reference;
-  Comparison comparison;
-  if (arguments.against_image()) {
+  std::optional<Scene> scene;
+  if (arguments.against_image())
     reference = read_exr(arguments.scene.path);
-    comparison = compare_images(image, *reference, arguments.judged);
-  } else {
-    comparison = compare_to_scene(image, load(arguments.scene), arguments.judged, arguments.trace);
-  }
+  else
+    scene = load(arguments.scene);
+  const auto compare = [&](const Image& image) {
+    return reference ? compare_images(image, *reference, arguments.judged)
+                     : compare_to_scene(image, *scene, arguments.judged, arguments.trace);
+  };
+  const auto judged = [&](const std::filesystem::path& path, const Image& image,
+                          const Comparison& comparison) {
+    return JudgedImage{image, path.stem().string(), arguments.judged.channel(), comparison};
+  };
+  const Image image = read_exr(arguments.image);
+  const Comparison comparison = compare(image);
   std::string text = arguments.json ? to_text(to_json(arguments, comparison)) : to_table(comparison);
   if (!arguments.json && arguments.wants_pictures()) text += scale_line(difference_scale(comparison));
   print(text);
-  write_pictures(arguments, image, reference ? &*reference : nullptr, comparison);
+  std::vector<JudgedImage> images{judged(arguments.image, image, comparison)};
+  Image beside;
+  Comparison beside_comparison;
+  if (!arguments.beside.empty()) {
+    beside = read_exr(arguments.beside);
+    beside_comparison = compare(beside);
+    images.push_back(judged(arguments.beside, beside, beside_comparison));
+  }
+  write_pictures(arguments, images, reference ? &*reference : nullptr);
 }
 
 }  // namespace
@@ -172,6 +189,10 @@ void add_compare_command(CLI::App& app) {
   command
       .add_option("--signed-difference", arguments->signed_difference,
                   "Write visibility of A minus B (PNG): blue too dark, red too bright")
+      ->type_name("FILE");
+  command
+      .add_option("--beside", arguments->beside,
+                  "Another image (EXR) of the same size: --picture shows it and its difference to B as well")
       ->type_name("FILE");
   add_exposure_option(command, arguments->exposure, "Stops by which the images in --picture are brighter");
   add_strict_option(command, arguments->scene);

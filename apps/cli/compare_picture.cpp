@@ -8,7 +8,7 @@ namespace penumbra::apps {
 namespace {
 
 constexpr Picture::Color kPaper{255, 255, 255}, kInk{20, 20, 20}, kNothing{230, 230, 230};
-constexpr int kCaption = 40, kGap = 8;
+constexpr int kCaption = 40, kGap = 8, kBaseline = (kCaption - 14) / 2;
 
 Picture from_bytes(const Image& image, const std::vector<unsigned char>& rgb) {
   Picture picture(image.width, image.height, kNothing);
@@ -56,38 +56,48 @@ double difference_scale(const Comparison& comparison) {
   return 1.0;
 }
 
-Picture difference_picture(const Image& image, const Comparison& comparison, double scale) {
-  const std::vector<float>& visibility = image.at("visibility");
+Picture difference_picture(const JudgedImage& judged, double scale) {
+  const Image& image = judged.image;
+  const std::vector<float>& visibility = image.at(judged.channel);
   Picture picture(image.width, image.height, kNothing);
-  for (const std::uint32_t i : comparison.judged) {
-    const double difference = double{visibility[i]} - double{comparison.reference[i]};
+  for (const std::uint32_t i : judged.comparison.judged) {
+    const double difference = double{visibility[i]} - double{judged.comparison.reference[i]};
     picture.set(static_cast<int>(i) % image.width, static_cast<int>(i) / image.width,
                 signed_color(difference / scale));
   }
   return picture;
 }
 
-Picture side_by_side(const Image& image, const std::string& name, const Image* reference,
-                     const std::string& reference_name, const Comparison& comparison, double exposure_stops) {
-  const bool colors = reference && image.has("R") && reference->has("R");
-  const auto panel = [&](const Image& source, const std::vector<float>& visibility) {
-    return colors ? from_bytes(source, encode_srgb(source, exposure_stops))
-                  : gray_picture(image, visibility, comparison.judged);
+Picture side_by_side(std::span<const JudgedImage> images, const Image* reference,
+                     const std::string& reference_name, double exposure_stops) {
+  const JudgedImage& first = images.front();
+  bool colors = reference && reference->has("R");
+  double scale = 0.0;
+  for (const JudgedImage& judged : images) {
+    colors = colors && judged.image.has("R");
+    scale = std::max(scale, difference_scale(judged.comparison));
+  }
+  const int step = first.image.width + kGap, panels = 2 * static_cast<int>(images.size()) + 1;
+  Picture picture(panels * step + kGap, first.image.height + kCaption + kGap, kPaper);
+  int left = kGap;
+  const auto add = [&](const Picture& panel, const std::string& caption) {
+    picture.draw(left, kCaption, panel);
+    picture.fill(left - kGap / 2, 0, picture.width() - left, kCaption,
+                 kPaper);  // where the caption before was too long
+    picture.write(left, kBaseline, caption, kInk);
+    left += step;
   };
-  const double scale = difference_scale(comparison);
-  const int step = image.width + kGap;
-  Picture picture(3 * step + kGap, image.height + kCaption + kGap, kPaper);
-  picture.draw(kGap, kCaption, panel(image, image.at("visibility")));
-  picture.draw(kGap + step, kCaption, panel(reference ? *reference : image, comparison.reference));
-  picture.draw(kGap + 2 * step, kCaption, difference_picture(image, comparison, scale));
-
-  const int baseline = (kCaption - 14) / 2;
-  picture.fill(0, 0, picture.width(), kCaption, kPaper);
-  picture.write(kGap, baseline, name, kInk);
-  picture.write(kGap + step, baseline, reference_name, kInk);
-  picture.fill(kGap + 2 * step - kGap / 2, 0, picture.width(), kCaption, kPaper);
-  picture.write(kGap + 2 * step, baseline, "visibility, left - middle", kInk);
-  draw_scale(picture, picture.width() - kGap, baseline, scale);
+  const auto shown = [&](const Image& source, const std::vector<float>& visibility) {
+    return colors ? from_bytes(source, encode_srgb(source, exposure_stops))
+                  : gray_picture(first.image, visibility, first.comparison.judged);
+  };
+  for (const JudgedImage& judged : images)
+    add(shown(judged.image, judged.image.at(judged.channel)), judged.name);
+  add(shown(reference ? *reference : first.image, first.comparison.reference), reference_name);
+  for (const JudgedImage& judged : images)
+    add(difference_picture(judged, scale),
+        images.size() == 1 ? "visibility, left - middle" : judged.name + " - " + reference_name);
+  draw_scale(picture, picture.width() - kGap, kBaseline, scale);
   return picture;
 }
 

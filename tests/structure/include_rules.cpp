@@ -101,14 +101,6 @@ const std::vector<Exemption>& exemptions() {
       {"Embree's part of the ray scene", "render/silhouette/light_rays.cpp", "render/rays/ray_scene_impl.h", kPackets},
       {"no circle of folders", "render/receivers/occluding_casters.h", "render/rays/ray_scene.h",
        "the frame of rays (RayFrame) is declared there"},
-      {"edges are the first step", "render/silhouette/edges/point_groups.cpp", "render/silhouette/collect/light_band.h",
-       "a group is tested as a shaft's box is, against the light"},
-      {"merge comes before collect", "render/silhouette/merge/merged_lanes.cpp", "render/silhouette/collect/shaft.h",
-       "lanes are filled from a shaft"},
-      {"collect comes before areas", "render/silhouette/collect/shaft.h", "render/silhouette/areas/disk_part.h",
-       "a shaft is bounded by chords"},
-      {"collect comes before areas", "render/silhouette/collect/uncertain_edges.cpp",
-       "render/silhouette/areas/projected_edges.h", "it projects edges as areas do"},
   };
   return kExemptions;
 }

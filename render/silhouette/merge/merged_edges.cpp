@@ -68,6 +68,7 @@ std::vector<MergedEdge> neighbors_together(const Scene& scene, const Mergers& me
   }
   order_by_place(placed.data(), placed.data() + placed.size(), kLanes);
   std::vector<MergedEdge> out;
+  out.reserve(placed.size());
   for (const PlacedEdge& p : placed) out.push_back(p.edge);
   return out;
 }
