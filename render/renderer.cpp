@@ -6,8 +6,10 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/stage_clock.h"
 #include "render/casters_impl.h"
+#include "render/rays/camera_rays.h"
 #include "render/d_buffer/d_buffer_method.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
+#include "render/rays/camera_rays.h"
 #include "render/shading/shading.h"
 
 namespace penumbra {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "penumbra/render/image/image.h"
-#include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/visibility.h"
+#include "penumbra/render/receivers/surface_buffer.h"
 
 namespace penumbra {
 

@@ -8,7 +8,7 @@
 
 #include "apps/common/messages.h"
 #include "penumbra/mesh/error.h"
-#include "penumbra/render/receivers/surface_buffer.h"
+#include "render/rays/camera_rays.h"
 #include "render/rays/ray_scene.h"
 #include "render/rays/reference.h"
 

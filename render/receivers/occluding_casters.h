@@ -12,7 +12,7 @@
 
 #include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
-#include "render/rays/ray_scene.h"
+#include "render/scene/ray_frame.h"
 
 namespace penumbra::detail {
 

@@ -1,19 +1,15 @@
 // What the camera sees, once, for every method: a picture's pixels as receivers.
 //
-// In: a scene, a picture's size. Out: object and face at each pixel's center (Embree), and the point in
-// double from the pixel's ray and the face's plane.
+// Object and face are those that the ray through the pixel's center meets first, the point is where it meets
+// the face's plane, in double (rays/camera_rays.h).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "penumbra/render/receivers/receivers.h"
-#include "penumbra/render/scene/camera.h"
 
 namespace penumbra {
-
-class RayScene;
-struct Scene;
 
 struct SurfaceBuffer {
   /// Pixels.
@@ -34,9 +30,5 @@ struct SurfaceBuffer {
   /// Refers to this buffer.
   Receivers receivers() const { return {position, normal, object, face, width, height, revision}; }
 };
-
-/// Has a revision of its own. Cost O(pixels · log faces), on all threads of `rays`; deterministic. Throws
-/// UsageError for a side of 0 or above 65,536 pixels.
-SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height);
 
 }  // namespace penumbra

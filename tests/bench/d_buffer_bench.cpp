@@ -8,6 +8,7 @@
 #include "penumbra/mesh/shapes.h"
 #include "render/d_buffer/d_buffer.h"
 #include "render/gl/context.h"
+#include "render/rays/camera_rays.h"
 #include "tests/bench/bench_support.h"
 
 namespace penumbra::bench {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "penumbra/mesh/shapes.h"
+#include "render/rays/camera_rays.h"
 #include "render/silhouette/edge_hierarchies.h"
 #include "render/silhouette/silhouette_visibility.h"
 #include "tests/bench/bench_support.h"

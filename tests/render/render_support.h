@@ -15,10 +15,10 @@
 
 #include "penumbra/mesh/shapes.h"
 #include "penumbra/render/image/error_figures.h"
-#include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/scene/scene.h"
 #include "penumbra/render/support/counts.h"
 #include "render/light/disk_area.h"
+#include "render/rays/camera_rays.h"
 #include "render/rays/reference.h"
 #include "tests/render/visibility_support.h"
 

@@ -21,16 +21,18 @@ std::map<Color, int> colors_of(const Pixels& pixels) {
   return counts;
 }
 
-/// A disk of radius 1 at height 4 that looks down, and a plate under its half x > 0.
+/// A disk of radius 1 at height 4 that looks down.
+const DiskLight kLight{{0, 4, 0}, {0, -1, 0}, 1.0};
+
+/// A plate under its half x > 0.
 Scene half_covered() {
   Scene scene;
-  scene.light = {{0, 4, 0}, {0, -1, 0}, 1.0};
   scene.objects.push_back({"plate", make_box({5, 3, 0}, {5, 0.01, 10}), Vec3(0.8), true});
   return scene;
 }
 
 TEST(DiskView, HalfIsBlocked) {
-  auto counts = colors_of(disk_seen_from(half_covered(), {0, 0, 0}, {0, 1, 0}, 96));
+  auto counts = colors_of(disk_seen_from(half_covered(), kLight, {0, 0, 0}, {0, 1, 0}, 96));
   EXPECT_NEAR(counts[kBlocked], counts[kFree], 0.1 * counts[kFree]);
   EXPECT_EQ(counts[kBelow], 0);
 }
@@ -38,15 +40,15 @@ TEST(DiskView, HalfIsBlocked) {
 TEST(DiskView, TheHorizonCutsIt) {
   Scene scene = half_covered();
   scene.objects.clear();
-  auto counts = colors_of(disk_seen_from(scene, {0, 0, 0}, {1, 0, 0}, 96));
+  auto counts = colors_of(disk_seen_from(scene, kLight, {0, 0, 0}, {1, 0, 0}, 96));
   EXPECT_NEAR(counts[kBelow], counts[kFree], 0.1 * counts[kFree]);
-  counts = colors_of(disk_seen_from(scene, {0, 0, 0}, {0, -1, 0}, 96));
+  counts = colors_of(disk_seen_from(scene, kLight, {0, 0, 0}, {0, -1, 0}, 96));
   EXPECT_EQ(counts[kFree], 0);
   EXPECT_GT(counts[kBelow], 1'000);
 }
 
 TEST(DiskView, NothingIsSeenFromBehind) {
-  EXPECT_TRUE(disk_seen_from(half_covered(), {0, 5, 0}, {0, 1, 0}, 96).rgb.empty());
+  EXPECT_TRUE(disk_seen_from(half_covered(), kLight, {0, 5, 0}, {0, 1, 0}, 96).rgb.empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "penumbra/render/receivers/surface_buffer.h"
+#include "render/rays/camera_rays.h"
 
 #include <gtest/gtest.h>
 

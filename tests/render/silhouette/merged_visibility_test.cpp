@@ -1,4 +1,5 @@
 // Visibility with merged faces against visibility without.
+#include "render/rays/camera_rays.h"
 #include "render/silhouette/silhouette_visibility.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "render/rays/camera_rays.h"
 #include "render/silhouette/silhouette_visibility.h"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,16 @@
+// Rays of a camera: what each pixel of a picture sees.
+//
+// In: a scene and its camera, a picture's size. Out: object and face at each pixel's center (Embree), and the
+// point in double from the pixel's ray and the face's plane.
+#pragma once
+
+#include "penumbra/render/receivers/surface_buffer.h"
+#include "render/rays/ray_scene.h"
+
+namespace penumbra {
+
+/// Has a revision of its own. Cost O(pixels · log faces), on all threads of `rays`; deterministic. Throws
+/// UsageError for a side of 0 or above 65,536 pixels.
+SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height);
+
+}  // namespace penumbra
