@@ -8,6 +8,7 @@
 #include "render/casters_impl.h"
 #include "render/rays/camera_rays.h"
 #include "render/d_buffer/d_buffer_method.h"
+#include "render/light/valid_light.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
 #include "render/rays/camera_rays.h"
 #include "render/shading/shading.h"
@@ -117,8 +118,10 @@ RenderResult Renderer::render(const RenderOptions& options) {
   StageClock clock;
   Casters::Impl& casters = state_->casters.impl();
   const std::vector<Light>& lights = state_->scene.lights;
-  for (const Light& light : lights)
+  for (const Light& light : lights) {
+    require_valid(light.shape);
     if (!info.takes_rectangles) require_disk(light.shape, "method " + info.name);
+  }
   state_->rays(0, options);
   clock.restart();  // one-time set-up, not a stage
   const SurfaceBuffer& surface = state_->look(options);

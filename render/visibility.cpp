@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/casters_impl.h"
+#include "render/light/valid_light.h"
 
 namespace penumbra {
 namespace {
@@ -65,6 +66,7 @@ MethodResult visibility(const Casters& casters, const LightShape& light, const R
                         const VisibilityOptions& options) {
   const MethodInfo& info = method_named(options.method);
   require_valid(receivers);
+  require_valid(light);
   require_taken(info, light, receivers);
   const OptionValues values = completed(info.options, options.options);
   Casters::Impl& impl = casters.impl();

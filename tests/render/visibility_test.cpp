@@ -255,6 +255,29 @@ TEST_F(Refused, NumbersThatAreNotFinite) {
   }
 }
 
+TEST_F(Refused, LightsThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
+  const auto expect = [&](const LightShape& light, const std::string& what) {
+    for (const char* method : {"reference", "hard", "none"})
+      EXPECT_NE(message(good_, {.method = method}, light).find("the light's " + what), std::string::npos)
+          << what;
+  };
+  const Vec3 up{0, 4, 0}, down{0, -1, 0};
+  for (const double bad : {nan, far}) {
+    expect(DiskLight{{0, bad, 0}, down, 0.5}, "center");
+    expect(DiskLight{up, {0, bad, 0}, 0.5}, "normal");
+    expect(DiskLight{up, down, bad}, "radius");
+    expect(RectangleLight{.center = {bad, 0, 0}}, "center");
+    expect(RectangleLight{.center = up, .tangent = {bad, 0, 0}}, "tangent");
+    expect(RectangleLight{.center = up, .half_extents = {0.5, bad}}, "half extents");
+  }
+  expect(DiskLight{up, {0, 0, 0}, 0.5}, "normal");
+  expect(DiskLight{up, down, -0.5}, "radius");
+  expect(RectangleLight{.center = up, .normal = down, .tangent = {0, 2, 0}}, "tangent");
+  expect(RectangleLight{.center = up, .half_extents = {0.0, 1.0}}, "half extents");
+  EXPECT_EQ(message(good_, {.method = "reference"}, DiskLight{up, down, 0.0}), "not refused");
+}
+
 TEST_F(Refused, MethodsAndOptionsThatAreNotThere) {
   EXPECT_NE(message(good_, {.method = "no-method"}).find("no-method"), std::string::npos);
   for (const OptionValue& samples : {OptionValue(std::uint64_t{0}), OptionValue(16.0), OptionValue("many")}) {
