@@ -6,7 +6,6 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/stage_clock.h"
 #include "render/casters_impl.h"
-#include "render/rays/camera_rays.h"
 #include "render/d_buffer/d_buffer_method.h"
 #include "render/light/valid_light.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
