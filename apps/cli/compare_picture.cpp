@@ -42,8 +42,10 @@ void draw_scale(Picture& picture, int right, int y, double scale) {
   const std::string low = signed_text(-scale), high = signed_text(scale);
   const int high_x = right - Picture::width_of(high);
   const int bar_x = high_x - kGap - kBar;
+  const int low_x = bar_x - kGap - Picture::width_of(low);
+  picture.fill(low_x - kGap, 0, picture.width() - low_x + kGap, kCaption, kPaper);
   picture.write(high_x, y, high, kInk);
-  picture.write(bar_x - kGap - Picture::width_of(low), y, low, kInk);
+  picture.write(low_x, y, low, kInk);
   for (int i = 0; i < kBar; ++i) picture.fill(bar_x + i, y, 1, 14, signed_color(2.0 * i / (kBar - 1) - 1.0));
 }
 
@@ -96,7 +98,7 @@ Picture side_by_side(std::span<const JudgedImage> images, const Image* reference
   add(shown(reference ? *reference : first.image, first.comparison.reference), reference_name);
   for (const JudgedImage& judged : images)
     add(difference_picture(judged, scale),
-        images.size() == 1 ? "visibility, left - middle" : judged.name + " - " + reference_name);
+        images.size() == 1 ? "visibility, left - middle" : judged.name + ", difference");
   draw_scale(picture, picture.width() - kGap, kBaseline, scale);
   return picture;
 }

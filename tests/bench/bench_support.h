@@ -15,6 +15,7 @@
 #include "render/rays/ray_scene.h"
 #include "render/rays/reference.h"
 #include "tests/bench/record.h"
+#include "tests/render/visibility_support.h"
 
 namespace penumbra::bench {
 
@@ -28,12 +29,6 @@ inline Scene bench_scene(const std::string& name) {
 /// The shape of the scene's only light.
 inline const LightShape& shape_of(const Scene& scene) {
   return scene.lights.at(0).shape;
-}
-inline const DiskLight& disk_of(const Scene& scene) {
-  return require_disk(shape_of(scene), "the benchmark");
-}
-inline void set_radius(Scene& scene, double radius) {
-  std::get<DiskLight>(scene.lights.at(0).shape).radius = radius;
 }
 
 inline double total_ms(const std::vector<StageTime>& stages) {

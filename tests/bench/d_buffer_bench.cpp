@@ -69,7 +69,7 @@ struct Stand {
 void time_scene(Record& record, const std::string& name) {
   Stand stand(bench_scene(name));
   const Truth truth(stand.scene, stand.rays, stand.surface, 1024);
-  const double rmse = truth.rmse(stand.d_buffer.render(disk_of(stand.scene), {}).visibility);
+  const double rmse = truth.rmse(stand.d_buffer.render(testing::light_of(stand.scene), {}).visibility);
   ReferenceOptions equal;
   equal.samples = rays_of_equal_error(stand.scene, stand.rays, stand.surface, truth, rmse);
   const std::vector<std::uint32_t> pixels = all_pixels(stand.surface);
@@ -77,7 +77,7 @@ void time_scene(Record& record, const std::string& name) {
   std::map<std::string, std::vector<double>> stages;
   std::vector<double> frames, rays, paired_frames;
   for (int i = 0; i < kFrames; ++i) {
-    const DBufferFrame frame = fresh_frame(stand.d_buffer, disk_of(stand.scene));
+    const DBufferFrame frame = fresh_frame(stand.d_buffer, testing::light_of(stand.scene));
     for (const StageTime& s : frame.stages) stages[s.name].push_back(s.milliseconds);
     frames.push_back(total_ms(frame.stages));
     if (!rays.empty() && rays.back() > kLongFrame && i >= 2) continue;
@@ -101,7 +101,8 @@ void time_scene(Record& record, const std::string& name) {
 std::vector<double> frame_times(Stand& stand, const DBufferOptions& options = {}) {
   std::vector<double> times;
   for (int i = 0; i <= kFrames; ++i) {
-    const double total = total_ms(fresh_frame(stand.d_buffer, disk_of(stand.scene), options).stages);
+    const double total =
+        total_ms(fresh_frame(stand.d_buffer, testing::light_of(stand.scene), options).stages);
     if (i > 0) times.push_back(total);
   }
   return times;
@@ -129,7 +130,7 @@ void time_faces(Record& record) {
 void time_radii(Record& record, const std::string& name) {
   Scene scene = bench_scene(name);
   for (double radius : {0.05, 0.1, 0.2, 0.4, 0.8, 1.6}) {
-    set_radius(scene, radius);
+    testing::light_of(scene).radius = radius;
     Stand stand(scene);
     char text[16];
     std::snprintf(text, sizeof text, "%g", radius);

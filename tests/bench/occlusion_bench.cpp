@@ -63,7 +63,7 @@ void time_radii(Record& record, const std::string& name) {
   std::vector<std::unique_ptr<Renderer>> renderers;
   for (const double radius : radii) {
     Scene scene = bench_scene(name);
-    set_radius(scene, radius);
+    testing::light_of(scene).radius = radius;
     renderers.push_back(std::make_unique<Renderer>(std::move(scene)));
     frame_ms(*renderers.back(), 16);
   }

@@ -32,7 +32,8 @@ class Stand {
   Stand(const Stand&) = delete;
 
   SilhouetteResult frame(const SilhouetteOptions& options = {}) {
-    return silhouette_visibility(scene_, rays_, hierarchies_, disk_of(scene_), surface_.receivers(), options);
+    return silhouette_visibility(scene_, rays_, hierarchies_, testing::light_of(scene_), surface_.receivers(),
+                                 options);
   }
   ReferenceResult trace(const std::vector<std::uint32_t>& pixels, int samples,
                         bool unoccluded = false) const {
@@ -102,12 +103,12 @@ void time_growth(Record& record, const std::string& what, Stand& first, Stand& s
 void time_radii(Record& record, const std::string& name) {
   for (const double scale : {0.25, 0.5, 1.0, 2.0, 4.0}) {
     Scene scene = bench_scene(name);
-    set_radius(scene, scale * disk_of(scene).radius);
+    testing::light_of(scene).radius *= scale;
     Stand stand(scene);
     Times times;
     for (int i = 0; i <= kFrames; ++i) time_frame(stand, times);
     char radius[16];
-    std::snprintf(radius, sizeof radius, "%g", disk_of(scene).radius);
+    std::snprintf(radius, sizeof radius, "%g", testing::light_of(scene).radius);
     const std::string path = name + "/radius " + radius;
     record.add(path + "/silhouette", "ms", times.silhouette);
     record.add(path + "/rays", "ms", times.rays);

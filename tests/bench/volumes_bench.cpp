@@ -31,16 +31,16 @@ void record_volume(Record& record, const std::string& path, const ShadowMesh& vo
 void compare_cells(Record& record, const std::string& name) {
   const Scene scene = bench_scene(name);
   const TriangleMesh& mesh = scene.objects.back().mesh;
-  const Classification classes = classify_faces(mesh, disk_of(scene));
+  const Classification classes = classify_faces(mesh, testing::light_of(scene));
   ExtrudeOptions patches, faces;
   faces.merge_faces = false;
   ShadowMesh merged, single;
   std::vector<double> merged_times, single_times;
   for (int i = 0; i < kRuns; ++i) {
     merged_times.push_back(
-        milliseconds([&] { merged = extrude_penumbra(mesh, disk_of(scene), classes, patches); }));
+        milliseconds([&] { merged = extrude_penumbra(mesh, testing::light_of(scene), classes, patches); }));
     single_times.push_back(
-        milliseconds([&] { single = extrude_penumbra(mesh, disk_of(scene), classes, faces); }));
+        milliseconds([&] { single = extrude_penumbra(mesh, testing::light_of(scene), classes, faces); }));
   }
   record.add(name + "/faces", "1", static_cast<double>(mesh.triangles().size()));
   record_volume(record, name + "/a cell a face", single, single_times);
@@ -59,14 +59,14 @@ void time_umbra(Record& record, const std::string& name, const TriangleMesh& mes
 
 void bench_volumes(Record& record, const SceneNames& scenes) {
   for (const std::string& name : scenes) compare_cells(record, name);
-  const DiskLight light = disk_of(bench_scene("sphere-medium"));
+  const DiskLight light = testing::light_of(bench_scene("sphere-medium"));
   for (int level = 2; level <= 6; ++level) {
     const TriangleMesh sphere = make_icosphere({0, 2.5, 0}, 1.0, level);
     time_umbra(record, "sphere of " + std::to_string(sphere.triangles().size()) + " faces", sphere, light);
   }
   for (const char* name : {"building", "decorativePlant-medium"}) {
     const Scene scene = bench_scene(name);
-    time_umbra(record, name, scene.objects.back().mesh, disk_of(scene));
+    time_umbra(record, name, scene.objects.back().mesh, testing::light_of(scene));
   }
 }
 

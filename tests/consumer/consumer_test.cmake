@@ -51,4 +51,3 @@ list(APPEND installed_tests consumer.dependencies)
 set_tests_properties(${installed_tests} PROPERTIES FIXTURES_REQUIRED penumbra_installed)
 
 consumer_test(as_a_folder as_a_folder -DPENUMBRA=${PROJECT_SOURCE_DIR})
-consumer_test(readme_sample readme_sample -DREADME=${PROJECT_SOURCE_DIR}/README.md -DSAMPLE=${consumer_dir}/volumes.cpp)

@@ -1,8 +1,9 @@
 """Runs every sh block of a document, one after the other in one folder, and loads every json block as a scene.
 
 usage: commands.py DOCUMENT BIN WORK
+       commands.py --list
 
-In the folder `data` is the repository's, and the programs of BIN are found. Commands of the table in tests/docs/README.md are
+--list prints the documents that have something to run. In the folder `data` is the repository's, and the programs of BIN are found. Commands of the table in tests/docs/README.md are
 left out.
 """
 import os
@@ -12,7 +13,7 @@ import subprocess
 import sys
 
 from commands_table import commands_not_run, logical_lines, without_comment
-from documents import ROOT, blocks
+from documents import ROOT, blocks, documents
 
 
 def script_of(block, left_out):
@@ -27,25 +28,35 @@ def run(document, block, script, folder, environment):
         sys.exit(f"{document}:{block.line}: exit code {done.returncode} from\n{script}\n{done.stdout}")
 
 
-def main():
-    document, programs, work = sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), pathlib.Path(sys.argv[3])
+def blocks_to_run(document):
+    """Pairs of a block and its script; of a json block the script is None."""
+    left_out, found = commands_not_run(), []
+    for block in blocks(document):
+        if block.language == "json":
+            found.append((block, None))
+        elif block.language == "sh" and (script := script_of(block, left_out)).strip():
+            found.append((block, script))
+    return found
+
+
+def run_all(document, programs, work):
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     (work / "data").symlink_to(ROOT / "data")
     environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
-    left_out, count = commands_not_run(), 0
-    for block in blocks(document):
-        if block.language == "sh":
-            script = script_of(block, left_out)
-            if script.strip():
-                run(document, block, script, work, environment)
-                count += 1
-        elif block.language == "json":
+    to_run = blocks_to_run(document)
+    for block, script in to_run:
+        if script is None:
             scene = work / f"scene-{block.line}.json"
             scene.write_text(block.text)
-            run(document, block, f"penumbra classify --strict {scene.name}", work, environment)
-            count += 1
-    print(f"{document}: {count} blocks run")
+            script = f"penumbra classify --strict {scene.name}"
+        run(document, block, script, work, environment)
+    if not to_run:
+        sys.exit(f"{document}: nothing to run")
+    print(f"{document}: {len(to_run)} blocks run")
 
 
-main()
+if sys.argv[1] == "--list":
+    print("\n".join(str(document) for document in documents() if blocks_to_run(document)))
+else:
+    run_all(sys.argv[1], pathlib.Path(sys.argv[2]).resolve(), pathlib.Path(sys.argv[3]))

@@ -31,7 +31,7 @@ def bad_links(document):
             path = (ROOT / document).parent / name if name else ROOT / document
             if not path.exists():
                 yield f"{document}:{number}: no file {target}"
-            elif anchor and anchor not in anchors(path):
+            elif anchor and (path.is_dir() or anchor not in anchors(path)):
                 yield f"{document}:{number}: no heading {target}"
 
 

@@ -1,0 +1,16 @@
+# Builds apps/examples as a project of its own with the installed library, and runs its programs.
+include(${CMAKE_CURRENT_LIST_DIR}/../consumer/common.cmake)
+use_folder(examples)
+run(${CMAKE_COMMAND} -S ${EXAMPLES} -B ${FOLDER}/build -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Debug
+    -DCMAKE_CXX_FLAGS=-Wall\ -Wextra\ -Wpedantic\ -Werror -DCMAKE_PREFIX_PATH=${WORK}/installed/prefix)
+run(${CMAKE_COMMAND} --build ${FOLDER}/build)
+run(${FOLDER}/build/readme)
+run(${FOLDER}/build/volumes_of_a_mesh ${DATA}/scenes/cube.off)
+run(${FOLDER}/build/visibility_at_points ${DATA}/scenes/torus.off)
+run(${FOLDER}/build/a_picture ${DATA}/scenes/cube-medium.json)
+foreach(file umbra.ply penumbra.ply picture.png picture.exr)
+  file(SIZE ${FOLDER}/${file} size)
+  if(size LESS 1000)
+    message(FATAL_ERROR "${file} has only ${size} bytes")
+  endif()
+endforeach()
