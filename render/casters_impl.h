@@ -13,7 +13,7 @@ namespace penumbra {
 struct Casters::Impl {
   Impl(std::vector<SceneObject> objects, int threads);
 
-  /// Rays in the frame of this light. Those of the last few frames are kept; a reference holds until other
+  /// Rays in the frame of this light. Those of the last `kept_frames` are kept; a reference holds until other
   /// frames have been asked for.
   const RayScene& rays_for(const LightShape& light);
   /// Rays in the frame that was asked for last, whatever the light: right but for their last digits, and at
@@ -26,6 +26,8 @@ struct Casters::Impl {
   Scene scene;  ///< objects alone
   detail::Threads threads;
   std::mutex mutex;  ///< held by a call
+  /// Memory: what depends on a light's frame is kept for so many lights.
+  std::size_t kept_frames = 2;
 
  private:
   std::list<RayScene> rays_;  ///< the last used first

@@ -9,7 +9,23 @@
 namespace penumbra {
 namespace {
 
+bool has_option(const MethodInfo& method, std::string_view name) {
+  return std::any_of(method.options.begin(), method.options.end(),
+                     [&](const OptionSchema& option) { return option.name == name; });
+}
+
+void require_sound(const MethodInfo& info) {
+  if (info.name.empty() || !info.make) throw UsageError("a method needs a name and what makes it");
+  if (info.converges && !(has_option(info, "samples") && has_option(info, "seed")))
+    throw UsageError("method " + info.name + " converges, but has no options samples and seed");
+  for (const OptionSchema& option : info.options) {
+    option.require_allowed(option.usual);
+    if (option.draft) option.require_allowed(*option.draft);
+  }
+}
+
 void add(std::deque<MethodInfo>& known, MethodInfo info) {
+  require_sound(info);
   for (const MethodInfo& other : known) {
     if (other.name == info.name) throw UsageError("there is a method '" + info.name + "' already");
     for (const OptionSchema& mine : info.options)
@@ -56,11 +72,37 @@ const MethodInfo& method_named(std::string_view name) {
   throw UsageError("unknown method '" + std::string(name) + "': use one of " + known);
 }
 
-void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers) {
-  if (!method.takes_rectangles) require_disk(light, "method " + method.name);
+void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers,
+                   bool with_unoccluded) {
+  const std::string who = "method " + method.name;
+  if (!method.takes_rectangles) require_disk(light, who);
+  if (!method.takes_disks && std::holds_alternative<DiskLight>(light))
+    throw UsageError(who + " does not take disk lights");
+  if (with_unoccluded && !method.gives_unoccluded && receivers.has_normals())
+    throw UsageError(who + " does not give the unoccluded fraction; leave the normals out, or use method " +
+                     kDefaultMethod);
+  if (method.needs_pixels && receivers.size() > 0 &&
+      (receivers.normals.empty() || receivers.objects.empty() || receivers.faces.empty()))
+    throw UsageError(who + " needs pixels with normals, objects and faces");
   if (method.needs_pixels && !receivers.are_pixels())
     throw UsageError("method " + method.name + " needs a picture's pixels as receivers; use method " +
                      kDefaultMethod + " for other points");
+}
+
+void require_known(const OptionValues& options) {
+  for (const auto& [name, value] : options)
+    if (std::none_of(methods().begin(), methods().end(),
+                     [&, key = name](const MethodInfo& method) { return has_option(method, key); }))
+      throw UsageError("no method has an option " + name);
+}
+
+void require_complete(const MethodInfo& method, const MethodResult& result, std::size_t receivers) {
+  const auto fits = [&](std::size_t size, bool optional) {
+    return size == receivers || (optional && size == 0);
+  };
+  if (!fits(result.visibility.size(), false) || !fits(result.unoccluded.size(), true) ||
+      !fits(result.region.size(), true))
+    throw UsageError("method " + method.name + " has not answered for every receiver");
 }
 
 std::vector<OptionSchema> all_options() {

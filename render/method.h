@@ -1,8 +1,8 @@
 // Methods: every way to find what receivers see of a light, each behind one registration.
 //
-// A method is a folder of its code, a description (MethodInfo) and what makes it. The command line, the viewer,
-// --stats, benchmarks and tests go over methods(); none of them knows a method by name. Add one by
-// register_method, from inside the library or from outside.
+// A method is its code, a description (MethodInfo) and what makes it. The command line, the viewer and --stats go
+// over methods(), so that none of them has to be changed for a new one. Add one by register_method, from inside
+// the library or from outside.
 #pragma once
 
 #include <cstdint>
@@ -40,13 +40,15 @@ struct MethodInput {
   /// MethodResult::textures is wanted.
   bool keep_textures = false;
   const Progress& progress;
+  /// For so many lights that are asked about in turn, what depends on a light's frame may be kept.
+  std::size_t kept_frames = 1;
 };
 
 struct MethodResult {
   /// V, one a receiver: the fraction of the light's area that is unblocked and above the receiver's horizon.
   /// 1 where there is no receiver, 0 behind the light's plane.
   std::vector<float> visibility;
-  /// O, one a receiver: the same without the horizon. Empty unless asked for and the method gives it.
+  /// O, one a receiver: the same without the horizon. Empty unless it was asked for.
   std::vector<float> unoccluded;
   /// Certificates, one a receiver: -1 not certified, 0 wholly lit, 1 partly lit, 2 in umbra or behind the
   /// light's plane. Empty where the method certifies nothing.
@@ -79,14 +81,17 @@ struct MethodInfo {
   std::string name;
   /// One line: how visibility is computed.
   std::string summary;
-  /// The lights that it takes. Every method takes a point light, whose visibility is the hard shadow's.
+  /// The lights that it takes. A point light is a disk of radius 0; all methods but `none` then give the hard
+  /// shadow.
   bool takes_disks = true, takes_rectangles = false;
-  /// Receivers must be a picture's pixels.
+  /// Receivers must be a picture's pixels, with normals, objects and faces.
   bool needs_pixels = false;
   bool needs_opengl = false;
   /// Gives MethodResult::region.
   bool certifies = false;
-  /// Gives independent samples by option seed, whose mean over seeds converges to V.
+  /// Gives MethodResult::unoccluded where it is asked for.
+  bool gives_unoccluded = false;
+  /// Gives independent samples by the options samples and seed, whose mean over seeds converges to V.
   bool converges = false;
   std::vector<OptionSchema> options;
   /// Makes the method for a scene's objects, which stay as they are for as long as the method lives. Lights and
@@ -94,8 +99,10 @@ struct MethodInfo {
   std::function<std::unique_ptr<Method>(const Scene& objects)> make;
 };
 
-/// Adds a method to methods(). Not while another thread uses them. Throws UsageError where the name is taken,
-/// or where an option's name stands for something else in another method.
+/// Adds a method to methods(). Not while another thread uses them: do it at the start of the program, and so call
+/// register_drawing_methods() (renderer.h). Throws UsageError where the name is empty or taken, where an option's
+/// default is outside of its domain, where an option's name stands for something else in another method, or where
+/// `converges` is set without options samples and seed.
 void register_method(MethodInfo info);
 
 /// All methods in the order of registration; those of penumbra::visibility first. References stay valid.
@@ -107,8 +114,15 @@ const MethodInfo& method_named(std::string_view name);
 /// The method that is used where nothing else is asked for.
 inline constexpr const char* kDefaultMethod = "silhouette";
 
-/// Throws UsageError that names the method where it does not take this light or these receivers.
-void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers);
+/// Throws UsageError that names the method where it does not take this light, these receivers, or a request for O.
+void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers,
+                   bool with_unoccluded = false);
+
+/// Throws UsageError for a name that no method's option has.
+void require_known(const OptionValues& options);
+
+/// Throws UsageError where a method from outside has not answered for every receiver.
+void require_complete(const MethodInfo& method, const MethodResult& result, std::size_t receivers);
 
 /// Every option of every method once, in their order.
 std::vector<OptionSchema> all_options();

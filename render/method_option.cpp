@@ -135,10 +135,20 @@ OptionValues completed(const std::vector<OptionSchema>& schema, const OptionValu
   OptionValues out;
   for (const OptionSchema& option : schema) {
     const auto given = values.find(option.name);
-    if (given != values.end()) option.require_allowed(given->second);
-    out[option.name] = given != values.end() ? given->second : option.usual;
+    OptionValue value = given != values.end() ? given->second : option.usual;
+    const auto* whole = std::get_if<std::uint64_t>(&value);
+    if (whole && std::holds_alternative<RealRange>(option.domain)) value = static_cast<double>(*whole);
+    option.require_allowed(value);
+    out[option.name] = value;
   }
   return out;
+}
+
+void require_allowed(const std::vector<OptionSchema>& schema, std::string_view name,
+                     const OptionValue& value) {
+  std::find_if(schema.begin(), schema.end(), [&](const OptionSchema& option) {
+    return option.name == name;
+  })->require_allowed(value);
 }
 
 std::uint64_t integer_of(const OptionValues& values, std::string_view name) {

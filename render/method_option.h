@@ -68,6 +68,10 @@ using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 /// that are not in the schema are left out.
 OptionValues completed(const std::vector<OptionSchema>& schema, const OptionValues& values);
 
+/// Throws UsageError where the option of that name does not allow the value. The schema must have it.
+void require_allowed(const std::vector<OptionSchema>& schema, std::string_view name,
+                     const OptionValue& value);
+
 /// For methods, of completed values.
 std::uint64_t integer_of(const OptionValues& values, std::string_view name);
 double real_of(const OptionValues& values, std::string_view name);

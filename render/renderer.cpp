@@ -1,6 +1,7 @@
 #include "penumbra/render/renderer.h"
 
 #include <algorithm>
+#include <mutex>
 #include <optional>
 
 #include "penumbra/mesh/error.h"
@@ -26,15 +27,28 @@ void add_to(StageTimes& sums, const StageTimes& times) {
   }
 }
 
+/// Channels of several lights have the lights' names.
+void require_names(const std::vector<Light>& lights) {
+  if (lights.empty()) throw UsageError("the scene has no light; add one");
+  for (std::size_t i = 0; i < lights.size() && lights.size() > 1; ++i) {
+    if (lights[i].name.empty())
+      throw UsageError("light " + std::to_string(i) + " of several has no name; give it one");
+    for (std::size_t k = 0; k < i; ++k)
+      if (lights[k].name == lights[i].name)
+        throw UsageError("two lights are called " + lights[i].name + "; give each a name of its own");
+  }
+}
+
 }  // namespace
 
 void register_drawing_methods() {
-  static const bool done = [] {
-    register_method(d_buffer_method());
-    register_method(occlusion_textures_method());
-    return true;
-  }();
-  static_cast<void>(done);
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  for (const auto make : {d_buffer_method, occlusion_textures_method}) {
+    MethodInfo method = make();
+    if (std::ranges::find(methods(), method.name, &MethodInfo::name) == methods().end())
+      register_method(std::move(method));
+  }
 }
 
 struct Renderer::State {
@@ -72,8 +86,10 @@ const SurfaceBuffer& Renderer::State::look(const RenderOptions& options) {
 }
 
 Renderer::Renderer(Scene scene, int threads) : state_(std::make_unique<State>(std::move(scene), threads)) {
-  if (state_->scene.lights.empty()) throw UsageError("the scene has no light; add one");
+  require_names(state_->scene.lights);
   register_drawing_methods();
+  constexpr std::size_t kMost = 8;  // memory: a scene of more lights makes the others' rays anew
+  state_->casters.impl().kept_frames = std::min(kMost, state_->scene.lights.size());
 }
 Renderer::~Renderer() = default;
 
@@ -89,7 +105,9 @@ void Renderer::set_light(std::size_t index, const Light& light) {
   if (index >= state_->scene.lights.size())
     throw UsageError("the scene has no light " + std::to_string(index) + "; it has " +
                      std::to_string(state_->scene.lights.size()));
-  state_->scene.lights[index] = light;
+  Light& mine = state_->scene.lights[index];
+  mine.shape = light.shape;
+  mine.radiance = light.radiance;
 }
 
 int Renderer::threads() const {
@@ -105,7 +123,11 @@ Image Renderer::shade_again(const std::vector<std::vector<float>>& visibility) c
   if (!state_->seen || visibility.size() != state_->scene.lights.size())
     throw UsageError("shading needs a picture and the visibility of each of its lights");
   std::vector<LightVisibility> lights;
-  for (const std::vector<float>& values : visibility) lights.push_back({values, {}});
+  for (const std::vector<float>& values : visibility) {
+    if (values.size() != state_->seen->surface.size())
+      throw UsageError("shading needs as many visibilities as the picture has pixels");
+    lights.push_back({values, {}});
+  }
   return shade(state_->scene, state_->seen->surface, lights, state_->casters.impl().threads);
 }
 
@@ -113,6 +135,7 @@ RenderResult Renderer::render(const RenderOptions& options) {
   const MethodInfo& info = method_named(options.method);
   RenderResult out;
   out.method = info.name;
+  require_known(options.options);
   out.options = completed(info.options, options.options);
   StageClock clock;
   Casters::Impl& casters = state_->casters.impl();
@@ -142,7 +165,9 @@ RenderResult Renderer::render(const RenderOptions& options) {
                                       .receivers = surface.receivers(),
                                       .options = out.options,
                                       .keep_textures = options.keep_textures,
-                                      .progress = part});
+                                      .progress = part,
+                                      .kept_frames = casters.kept_frames});
+    require_complete(info, result, surface.size());
     add_to(out.stages, result.stages);
     add_to(setup, result.setup);
     out.lights.push_back({.light = lights[k].name,

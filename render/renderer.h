@@ -1,7 +1,7 @@
 // Pictures: a scene, a method and its options in; channels, stage times and counts out.
 //
 //   camera → surface buffer     what each pixel sees: receivers, the same for every method
-//   visibility                  by the chosen method, once a light             (visibility.h)
+//   visibility                  by the chosen method, once a light             (method.h)
 //   shading                     visibility → RGB, summed over lights, the same code for every method
 #pragma once
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "penumbra/render/image/image.h"
-#include "penumbra/render/visibility.h"
 #include "penumbra/render/receivers/surface_buffer.h"
+#include "penumbra/render/visibility.h"
 
 namespace penumbra {
 
@@ -72,16 +72,18 @@ struct RenderResult {
 /// thread's).
 class Renderer {
  public:
-  /// `threads`: 0 means all cores. Copies of meshes are shared, not made.
+  /// `threads`: 0 means all cores. Copies of meshes are shared, not made. Throws UsageError for a scene without
+  /// lights, or with several of which two have one name or one has none.
   explicit Renderer(Scene scene, int threads = 0);
   ~Renderer();
 
   const Scene& scene() const;
   void set_camera(const Camera& camera);
-  /// Throws UsageError for an index that no light has. The name must not change.
+  /// Throws UsageError for an index that no light has. The light keeps its name.
   void set_light(std::size_t index, const Light& light);
 
-  /// Throws what visibility() and make_surface_buffer() throw.
+  /// Throws UsageError for an unknown method, options outside their domain, a light that is not valid or that the
+  /// method does not take, a side outside 1 to 65,536; SystemError where OpenGL does not start; Cancelled.
   RenderResult render(const RenderOptions& options);
   /// The next picture finds everything anew but for one-time set-up, though nothing has changed: for timing.
   void forget();

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
+#include "penumbra/mesh/error.h"
 #include "render/casters_impl.h"
 #include "render/light/valid_light.h"
 
 namespace penumbra {
 namespace {
-
-// Memory: rays of so many frames are kept. A scene of more lights makes them anew.
-constexpr std::size_t kMostFrames = 8;
 
 std::vector<SceneObject> objects_of(std::span<const TriangleMesh> meshes) {
   std::vector<SceneObject> objects;
@@ -32,7 +30,7 @@ const RayScene& Casters::Impl::rays_for(const LightShape& light) {
     rays_.splice(rays_.begin(), rays_, known);
   } else {
     rays_.emplace_front(scene, frame, threads);
-    if (rays_.size() > kMostFrames) rays_.pop_back();
+    if (rays_.size() > kept_frames) rays_.pop_back();
   }
   return rays_.front();
 }
@@ -42,9 +40,11 @@ const RayScene& Casters::Impl::rays_near(const LightShape& light) {
 }
 
 Method& Casters::Impl::method(const MethodInfo& info) {
-  auto& made = methods_[info.name];
-  if (!made) made = info.make(scene);
-  return *made;
+  const auto known = methods_.find(info.name);
+  if (known != methods_.end()) return *known->second;
+  std::unique_ptr<Method> made = info.make(scene);
+  if (!made) throw UsageError("method " + info.name + " could not be made");
+  return *(methods_[info.name] = std::move(made));
 }
 
 void Casters::Impl::forget() {
@@ -67,17 +67,27 @@ MethodResult visibility(const Casters& casters, const LightShape& light, const R
   const MethodInfo& info = method_named(options.method);
   require_valid(receivers);
   require_valid(light);
-  require_taken(info, light, receivers);
+  require_taken(info, light, receivers, options.with_unoccluded);
+  require_known(options.options);
   const OptionValues values = completed(info.options, options.options);
+  if (info.needs_pixels)
+    for (const std::int32_t object : receivers.objects)
+      if (object >= static_cast<std::int32_t>(casters.objects().size()))
+        throw UsageError("a receiver lies on object " + std::to_string(object) + ", but there are only " +
+                         std::to_string(casters.objects().size()));
   Casters::Impl& impl = casters.impl();
   const std::lock_guard lock(impl.mutex);
   const RayScene& rays = impl.rays_for(light);
-  return impl.method(info).run({.rays = rays,
-                                .light = light,
-                                .receivers = receivers,
-                                .options = values,
-                                .with_unoccluded = options.with_unoccluded,
-                                .progress = options.progress});
+  MethodResult result = impl.method(info).run({.rays = rays,
+                                               .light = light,
+                                               .receivers = receivers,
+                                               .options = values,
+                                               .with_unoccluded = options.with_unoccluded,
+                                               .progress = options.progress,
+                                               .kept_frames = impl.kept_frames});
+  require_complete(info, result, receivers.size());
+  if (options.with_unoccluded && result.unoccluded.empty()) result.unoccluded = result.visibility;
+  return result;
 }
 
 }  // namespace penumbra

@@ -5,7 +5,7 @@
 //   receivers   points, with or without normals and faces      (receivers/receivers.h)
 //   options     the method and its options                     (method.h)
 //
-// A picture is the same call: its camera makes the receivers (renderer.h).
+// A picture asks the same methods; its camera makes the receivers (renderer.h).
 #pragma once
 
 #include <memory>
@@ -42,13 +42,15 @@ struct VisibilityOptions {
   std::string method = kDefaultMethod;
   /// Of the method; those of other methods have no effect.
   OptionValues options{};
-  /// MethodResult::unoccluded is wanted as well as visibility. With receivers without normals both are equal.
+  /// MethodResult::unoccluded is wanted as well as visibility. Of receivers without normals both are equal, by
+  /// any method; with normals only some methods give it (MethodInfo::gives_unoccluded).
   bool with_unoccluded = false;
   Progress progress{};
 };
 
 /// Receivers may come in any order: they are sorted for coherence inside, and answered in theirs. Calls with
-/// the same casters wait for each other. Cost: see each method. Throws UsageError for an unknown method,
+/// the same casters wait for each other. Methods that need OpenGL are to be called, and their casters destroyed,
+/// by one thread: contexts are that thread's. Cost: see each method. Throws UsageError for an unknown method,
 /// options outside their domain, a light or receivers that the method does not take, arrays of different
 /// lengths, numbers that are not finite; Cancelled.
 MethodResult visibility(const Casters& casters, const LightShape& light, const Receivers& receivers,

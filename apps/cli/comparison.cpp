@@ -137,6 +137,16 @@ void resample_worst(Comparison& comparison, const std::vector<float>& method, Re
   comparison.resamples = kResamples;
 }
 
+/// Of several lights one has to be named.
+void require_channel(const Image& image, const Judged& judged) {
+  if (image.has(judged.channel())) return;
+  std::string names;
+  for (const auto& [name, values] : image.channels)
+    if (name.starts_with("visibility.")) names += (names.empty() ? "" : ", ") + name.substr(11);
+  if (!names.empty())
+    throw UsageError("the image has several lights; choose one of " + names + " with --light");
+}
+
 std::size_t light_of(const Scene& scene, const Judged& judged) {
   if (!judged.light.empty()) return scene.light_index(judged.light);
   if (scene.lights.size() == 1) return 0;
@@ -152,6 +162,8 @@ Comparison compare_images(const Image& image, const Image& reference, const Judg
     throw UsageError("the images differ in size: " + std::to_string(image.width) + "x" +
                      std::to_string(image.height) + " and " + std::to_string(reference.width) + "x" +
                      std::to_string(reference.height) + "; render both with the same --size");
+  require_channel(image, judged);
+  require_channel(reference, judged);
   Comparison comparison;
   comparison.judged = receivers(image, judged);
   const std::vector<float>& theirs = reference.at("object");
@@ -164,15 +176,18 @@ Comparison compare_images(const Image& image, const Image& reference, const Judg
   return comparison;
 }
 
-Comparison compare_to_scene(const Image& image, const Scene& scene, const Judged& judged,
+Comparison compare_to_scene(const Image& image, const Scene& scene, const Judged& wanted,
                             const TraceOptions& options) {
   const auto start = std::chrono::steady_clock::now();
+  const std::size_t light = light_of(scene, wanted);
+  const Judged judged{wanted.object, scene.lights.size() > 1 ? scene.lights[light].name : ""};
   Comparison comparison;
   comparison.judged = receivers(image, judged);
-  const std::size_t light = light_of(scene, judged);
   const RayScene rays(scene, ray_frame(scene, scene.lights[light].shape),
                       detail::make_threads(options.threads));
-  const SurfaceBuffer surface = make_surface_buffer(scene, rays, image.width, image.height);
+  // As the picture was made: in the frame of the first light.
+  const RayScene camera_rays(scene, options.threads);
+  const SurfaceBuffer surface = make_surface_buffer(scene, camera_rays, image.width, image.height);
   Bounds bounds = scene.bounds();
   bounds.add(scene.camera.eye);
   const double tolerance = kPositionTolerance * (bounds.radius() + glm::length(bounds.center()));

@@ -165,7 +165,10 @@ void run(const Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
   const std::vector<std::size_t> lights = chosen_lights(arguments, scene);
-  for (const std::size_t k : lights) require_disk(scene.lights[k].shape, "penumbra volumes");
+  for (const std::size_t k : lights)
+    require_disk(scene.lights[k].shape,
+                 "penumbra volumes" +
+                     (lights.size() > 1 ? ", of light " + scene.lights[k].name + ", (see --light)" : ""));
   nlohmann::json reports = nlohmann::json::array();
   bool good = true;
   for (const std::size_t k : lights) {

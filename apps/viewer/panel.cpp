@@ -35,7 +35,8 @@ void help_on_hover(const std::string& text) {
 
 bool slider(Places& places, const char* label, double& value, double low, double high, const char* format,
             ImGuiSliderFlags flags = 0) {
-  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format, flags);
+  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
+                                           flags | ImGuiSliderFlags_AlwaysClamp);
   note_place(places, label);
   return changed;
 }

@@ -6,6 +6,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/d_buffer/boundaries.h"
 #include "render/d_buffer/casters.h"
+#include "render/d_buffer/d_buffer_method.h"
 #include "render/d_buffer/fill_passes.h"
 #include "render/d_buffer/pictures.h"
 #include "render/d_buffer/view.h"
@@ -25,13 +26,13 @@ bool reads_are_known(const detail::DBufferView& view, const DBufferOptions& opti
 }
 
 void require_valid(const DBufferOptions& o) {
-  if (o.size < 16 || o.size > 8192)
-    throw UsageError("D-buffer size must lie in 16 to 8192 texels (0: by the image's), not " +
-                     std::to_string(o.size));
-  if (o.entries < 1 || o.entries > 2)
-    throw UsageError("D-buffer entries must be 1 or 2, not " + std::to_string(o.entries));
+  const std::vector<OptionSchema> schema = d_buffer_options();
+  require_allowed(schema, "dbuffer-size", static_cast<std::uint64_t>(o.size));
+  require_allowed(schema, "dbuffer-entries", static_cast<std::uint64_t>(o.entries));
   if (o.entries == 2 && (o.contents != DBufferContents::kEdge || o.conflict != Conflict::kNearest))
-    throw UsageError("two D-buffer entries need edges as its contents and the nearest at a conflict");
+    throw UsageError(
+        "option dbuffer-entries: 2 needs option dbuffer edge and option conflict nearest; give 1 or change "
+        "these");
 }
 
 }  // namespace
@@ -181,7 +182,10 @@ DBuffer::DBuffer(gl::Context& context, const Scene& scene, const RayScene& rays)
 }
 
 DBuffer::~DBuffer() {
-  if (impl_) impl_->context.make_current();
+  try {
+    if (impl_) impl_->context.make_current();
+  } catch (const Error&) {  // another thread has the context: what it holds goes with it
+  }
 }
 
 void DBuffer::set_surface(const Receivers& surface) {

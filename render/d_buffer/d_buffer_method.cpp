@@ -11,9 +11,6 @@
 namespace penumbra {
 namespace {
 
-// Memory: the D-buffers of so many lights are kept. A scene of more lights makes them anew.
-constexpr std::size_t kMostLights = 8;
-
 DBufferOptions options_of(const OptionValues& values) {
   return {.size = static_cast<int>(integer_of(values, "dbuffer-size")),
           .contents = value_in(d_buffer_contents(), word_of(values, "dbuffer")),
@@ -37,8 +34,7 @@ class DBufferMethod : public Method {
     out.setup = clock.stages();
     StageClock stages;
     if (input.receivers.revision == 0 || kept.revision != input.receivers.revision)
-      kept.buffer.set_surface(input.receivers);
-    kept.revision = input.receivers.revision;
+      set_surface(kept, input.receivers);
     stages.finish("upload_surface");
     report(input.progress, 0.0);
     DBufferFrame frame = kept.buffer.render(require_disk(input.light, "method dbuffer"),
@@ -71,6 +67,12 @@ class DBufferMethod : public Method {
     std::uint64_t revision = 0;
   };
 
+  static void set_surface(Kept& kept, const Receivers& receivers) {
+    kept.revision = 0;  // should it fail half way
+    kept.buffer.set_surface(receivers);
+    kept.revision = receivers.revision;
+  }
+
   Kept& kept_for(const MethodInput& input) {
     const gl::Backend backend = gl::backend_of(word_of(input.options, "backend"));
     if (!context_ || backend_ != backend) {
@@ -85,7 +87,7 @@ class DBufferMethod : public Method {
       kept_.splice(kept_.begin(), kept_, known);
     } else {
       kept_.emplace_front(*context_, scene_, input.rays);
-      if (kept_.size() > kMostLights) kept_.pop_back();
+      if (kept_.size() > input.kept_frames) kept_.pop_back();
     }
     return kept_.front();
   }
@@ -95,6 +97,8 @@ class DBufferMethod : public Method {
   gl::Backend backend_{};
   std::list<Kept> kept_;  ///< the last used first
 };
+
+}  // namespace
 
 std::vector<OptionSchema> d_buffer_options() {
   const DBufferOptions usual;
@@ -129,8 +133,6 @@ std::vector<OptionSchema> d_buffer_options() {
             "Whether rays are traced where entries contradict each other; with edge, exact and ray"),
       gl::backend_option()};
 }
-
-}  // namespace
 
 MethodInfo d_buffer_method() {
   return {.name = "dbuffer",

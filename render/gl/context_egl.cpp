@@ -34,7 +34,8 @@ const Library& library() {
     lib.handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!lib.handle)
       throw SystemError(
-          "cannot open libEGL.so.1: install the Debian packages libegl1 and libegl-mesa0, or use --backend "
+          "cannot open libEGL.so.1: install the Debian packages libegl1 and libegl-mesa0, or use option "
+          "backend "
           "osmesa");
     load(lib.handle, "eglGetProcAddress", lib.proc_address);
     load(lib.handle, "eglInitialize", lib.initialize);
@@ -51,7 +52,7 @@ const Library& library() {
 [[noreturn]] void fail(const char* what) {
   throw SystemError(
       std::string("EGL surfaceless: ") + what +
-      ": install the Debian packages libegl-mesa0 and libgl1-mesa-dri, or use --backend osmesa");
+      ": install the Debian packages libegl-mesa0 and libgl1-mesa-dri, or use option backend osmesa");
 }
 
 class Egl final : public Context {

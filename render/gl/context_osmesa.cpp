@@ -40,7 +40,7 @@ const Library& library() {
       if ((lib.handle = dlopen(name, RTLD_NOW | RTLD_LOCAL))) break;
     if (!lib.handle)
       throw SystemError(
-          "cannot open libOSMesa.so.8: install the Debian package libosmesa6, or use --backend egl");
+          "cannot open libOSMesa.so.8: install the Debian package libosmesa6, or use option backend egl");
     load(lib.handle, "OSMesaCreateContextAttribs", lib.create);
     load(lib.handle, "OSMesaDestroyContext", lib.destroy);
     load(lib.handle, "OSMesaMakeCurrent", lib.make_current);
@@ -59,7 +59,7 @@ class OsMesa final : public Context {
     context_ = library().create(wanted.data(), nullptr);
     if (!context_)
       throw SystemError(
-          "OSMesa gives no OpenGL 4.5 core context: install Mesa 22 or newer, or use --backend egl");
+          "OSMesa gives no OpenGL 4.5 core context: install Mesa 22 or newer, or use option backend egl");
     make_current();
     functions_ = load_functions(library().proc_address);
     renderer_ = renderer_string(functions_);

@@ -12,6 +12,7 @@
 #include "render/gl/state_scope.h"
 #include "render/light/light_integrals.h"
 #include "render/occlusion_textures/lookup.h"
+#include "render/occlusion_textures/occlusion_textures_method.h"
 
 namespace penumbra {
 namespace {
@@ -25,13 +26,13 @@ constexpr int kRowsAtOnce = 12;
 static_assert(kTile * kTile <= detail::SliceReceivers::kMost);
 
 void require_valid(const OcclusionOptions& o) {
-  if (o.slices < 4 || o.slices > 16 || o.slices % 4 != 0)
-    throw UsageError("slices must be 4, 8, 12 or 16, not " + std::to_string(o.slices));
-  if (o.texture_size != 128 && o.texture_size != 256 && o.texture_size != 512 && o.texture_size != 1024)
-    throw UsageError("texture size must be 128, 256, 512 or 1024 texels, not " +
-                     std::to_string(o.texture_size));
-  if (o.cop_offset && !(*o.cop_offset > 0.0))
-    throw UsageError("the center of projection must lie behind the light: an offset greater than 0");
+  const std::vector<OptionSchema> schema = occlusion_options();
+  require_allowed(schema, "slices", static_cast<std::uint64_t>(o.slices));
+  require_allowed(schema, "texture-size", static_cast<std::uint64_t>(o.texture_size));
+  const bool perspective = o.cop_offset && !std::isinf(*o.cop_offset);
+  if (o.cop_offset)
+    require_allowed(schema, "cop-offset",
+                    perspective ? OptionValue(*o.cop_offset) : OptionValue("orthographic"));
 }
 
 }  // namespace
@@ -254,7 +255,10 @@ OcclusionTextures::OcclusionTextures(gl::Context& context, const Scene& scene, c
 }
 
 OcclusionTextures::~OcclusionTextures() {
-  if (impl_) impl_->context.make_current();
+  try {
+    if (impl_) impl_->context.make_current();
+  } catch (const Error&) {  // another thread has the context: what it holds goes with it
+  }
 }
 
 OcclusionFrame OcclusionTextures::render(const AreaLight& light, const Receivers& surface,

@@ -1,6 +1,8 @@
 #include "render/occlusion_textures/occlusion_textures_method.h"
 
+#include <algorithm>
 #include <limits>
+#include <list>
 
 #include "render/gl/context_options.h"
 #include "render/occlusion_textures/occlusion_textures.h"
@@ -40,11 +42,11 @@ class OcclusionTexturesMethod : public Method {
     if (is_point(input.light)) return hard_shadow(input);
     StageClock clock;
     MethodResult out;
-    prepare(input);
+    OcclusionTextures& textures = textures_for(input);
     clock.finish("occlusion_textures");
     out.setup = clock.stages();
-    OcclusionFrame frame = textures_->render(area_light(input.light), input.receivers,
-                                             options_of(input.options), input.progress);
+    OcclusionFrame frame =
+        textures.render(area_light(input.light), input.receivers, options_of(input.options), input.progress);
     out.visibility = std::move(frame.visibility);
     out.stages = std::move(frame.stages);
     out.counts = std::move(frame.counts);
@@ -54,26 +56,42 @@ class OcclusionTexturesMethod : public Method {
   }
 
  private:
-  void prepare(const MethodInput& input) {
+  /// The textures that work in the frame of one light's rays.
+  struct Kept {
+    Kept(gl::Context& context, const Scene& scene, const RayScene& rays_)
+        : rays(&rays_), frame(rays_.frame()), textures(context, scene, rays_) {}
+
+    const RayScene* rays;
+    RayFrame frame;
+    OcclusionTextures textures;
+  };
+
+  OcclusionTextures& textures_for(const MethodInput& input) {
     const gl::Backend backend = gl::backend_of(word_of(input.options, "backend"));
     if (!context_ || backend_ != backend) {
-      textures_.reset();
+      kept_.clear();
       context_ = gl::make_context(backend);
       backend_ = backend;
     }
-    if (!textures_ || rays_ != &input.rays || frame_ != input.rays.frame())
-      textures_ = std::make_unique<OcclusionTextures>(*context_, scene_, input.rays);
-    rays_ = &input.rays;
-    frame_ = input.rays.frame();
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+      return kept.rays == &input.rays && kept.frame == input.rays.frame();
+    });
+    if (known != kept_.end()) {
+      kept_.splice(kept_.begin(), kept_, known);
+    } else {
+      kept_.emplace_front(*context_, scene_, input.rays);
+      if (kept_.size() > input.kept_frames) kept_.pop_back();
+    }
+    return kept_.front().textures;
   }
 
   const Scene& scene_;
   std::unique_ptr<gl::Context> context_;
   gl::Backend backend_{};
-  std::unique_ptr<OcclusionTextures> textures_;
-  const RayScene* rays_ = nullptr;  ///< that `textures_` was made with
-  RayFrame frame_;
+  std::list<Kept> kept_;  ///< the last used first
 };
+
+}  // namespace
 
 std::vector<OptionSchema> occlusion_options() {
   const OcclusionOptions usual;
@@ -116,8 +134,6 @@ std::vector<OptionSchema> occlusion_options() {
            "casters"},
       gl::backend_option()};
 }
-
-}  // namespace
 
 MethodInfo occlusion_textures_method() {
   return {.name = "occlusion-textures",

@@ -8,4 +8,7 @@ namespace penumbra {
 /// The scene in prefiltered slices parallel to the light (occlusion_textures.h).
 MethodInfo occlusion_textures_method();
 
+/// The schema of its options.
+std::vector<OptionSchema> occlusion_options();
+
 }  // namespace penumbra

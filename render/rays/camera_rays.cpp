@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -69,8 +68,7 @@ SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int 
   SurfaceBuffer out;
   out.width = width;
   out.height = height;
-  static std::atomic<std::uint64_t> revisions{0};
-  out.revision = ++revisions;
+  out.revision = new_revision();
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   out.object.assign(n, -1);
   out.face.assign(n, 0);

@@ -10,7 +10,7 @@
 namespace penumbra {
 
 ReferenceResult trace_hard(const RayScene& rays, const LightShape& light, const Receivers& receivers,
-                           std::span<const std::uint32_t> indices) {
+                           std::span<const std::uint32_t> indices, bool horizon) {
   const auto start = std::chrono::steady_clock::now();
   const DiskLight disk = disk_around(light);
   const glm::vec3 center(rays.frame().to_local(disk.center)), normal(light_frame(disk).w);
@@ -22,7 +22,7 @@ ReferenceResult trace_hard(const RayScene& rays, const LightShape& light, const 
     if (!receivers.is_present(receiver)) return;
     const detail::RayStart x = detail::ray_start(receivers, receiver, rays.frame());
     const glm::vec3 d = center - x.origin;
-    const bool below = receivers.has_normals() && glm::dot(x.normal, d) <= 0.0f;
+    const bool below = horizon && receivers.has_normals() && glm::dot(x.normal, d) <= 0.0f;
     if (is_behind(disk, receivers.points[receiver]) || below) {
       out.visibility[i] = 0.0f;
       return;

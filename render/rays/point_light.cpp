@@ -12,8 +12,10 @@ MethodResult hard_shadow(const MethodInput& input) {
   std::vector<std::uint32_t> indices(input.receivers.size());
   std::iota(indices.begin(), indices.end(), 0u);
   ReferenceResult traced = trace_hard(input.rays, input.light, input.receivers, indices);
-  clock.finish("visibility");
   MethodResult out;
+  if (input.with_unoccluded)
+    out.unoccluded = trace_hard(input.rays, input.light, input.receivers, indices, false).visibility;
+  clock.finish("visibility");
   out.visibility = std::move(traced.visibility);
   out.stages = clock.stages();
   out.counts = {{"rays", traced.rays}};

@@ -40,11 +40,9 @@ void for_each_receiver(tbb::task_arena& threads, std::size_t count, const Progre
     tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
       if (stop) return;
       for (std::size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) body(i);
-      const std::size_t finished = ++done;
-      if (progress && finished % 16 == 0 && reporting.try_lock()) {
-        if (!progress(static_cast<double>(finished) / static_cast<double>(blocks))) stop = true;
-        reporting.unlock();
-      }
+      if (++done % 16 != 0 || !progress) return;
+      const std::unique_lock lock(reporting, std::try_to_lock);
+      if (lock && !progress(static_cast<double>(done) / static_cast<double>(blocks))) stop = true;
     });
   });
   if (stop) throw Cancelled();

@@ -7,6 +7,7 @@
 #include "render/light/area_light.h"
 #include "render/light/disk_samples.h"
 #include "render/rays/hard.h"
+#include "render/rays/ray_methods.h"
 #include "render/rays/ray_scene_impl.h"
 #include "render/rays/ray_start.h"
 #include "render/support/vector_clones.h"
@@ -166,9 +167,12 @@ std::uint32_t key_of(const Receivers& receivers, std::uint32_t i, std::uint64_t 
 ReferenceResult trace_reference(const RayScene& rays, const LightShape& shape, const Receivers& receivers,
                                 std::span<const std::uint32_t> indices, const ReferenceOptions& options,
                                 bool with_unoccluded, const Progress& progress) {
-  if (options.samples < 1 || options.samples > (1 << 20))
-    throw UsageError("samples must lie in 1 to 1048576, not " + std::to_string(options.samples));
-  if (is_point(shape)) return trace_hard(rays, shape, receivers, indices);
+  require_allowed(sampling_options(), "samples", static_cast<std::uint64_t>(options.samples));
+  if (is_point(shape)) {
+    ReferenceResult hard = trace_hard(rays, shape, receivers, indices);
+    if (with_unoccluded) hard.unoccluded = trace_hard(rays, shape, receivers, indices, false).visibility;
+    return hard;
+  }
   const auto start = std::chrono::steady_clock::now();
   const StratumTable table(options.samples);
   const LocalLight light = local_light(area_light(shape), rays.frame());

@@ -26,11 +26,12 @@ ReceiverGroups::ReceiverGroups(const Receivers& receivers)
     count_ = static_cast<std::size_t>(columns_) * static_cast<std::size_t>((height_ + kTile - 1) / kTile);
     return;
   }
-  const Bounds bounds = bounds_of(receivers.points);
+  const Bounds bounds = bounds_of_present(receivers);
   const double scale = bounds.radius() > 0.0 ? 1.0 / bounds.radius() : 1.0;
+  const Vec3 middle = bounds.empty() ? Vec3(0.0) : bounds.center();
   std::vector<Placed> placed(receivers.size());
   for (std::size_t i = 0; i < placed.size(); ++i) {
-    const Vec3 p = receivers.points[i] * scale;
+    const Vec3 p = (receivers.is_present(i) ? receivers.points[i] : middle) * scale;
     const Vec3 n = receivers.has_normals() ? kNormalWeight * receivers.normals[i] : Vec3(0.0);
     placed[i] = {{p.x, p.y, p.z, n.x, n.y, n.z}, static_cast<std::uint32_t>(i)};
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "penumbra/mesh/triangle_mesh.h"
 #include "penumbra/mesh/types.h"
 
 namespace penumbra {
@@ -13,8 +14,10 @@ namespace penumbra {
 struct Receivers {
   /// World, scene units.
   std::span<const Vec3> points{};
-  /// Optional: unit normals. What lies below a receiver's tangent plane is then hidden from it (its horizon).
-  /// Without normals nothing is: visibility is the unoccluded fraction of the light.
+  /// Optional: unit normals, on the side from which the surface is looked at. What lies below a receiver's
+  /// tangent plane is then hidden from it (its horizon), and rays start a hundred-thousandth of the scene along
+  /// the normal. Without normals nothing is below, rays start at the point itself, and visibility is the
+  /// unoccluded fraction of the light.
   std::span<const Vec3> normals{};
   /// Optional: the scene's index of the object on which the point lies; -1: no receiver here, its visibility
   /// is 1.
@@ -23,7 +26,8 @@ struct Receivers {
   std::span<const std::uint32_t> faces{};
   /// Where the receivers are a picture's pixels, row by row from the top: its size; else 0.
   int width = 0, height = 0;
-  /// Equal numbers other than 0 stand for equal receivers, so that what depends on them alone is kept.
+  /// Equal numbers other than 0 stand for equal receivers, so that what depends on them alone is kept from call to
+  /// call. Take it from new_revision(); 0: nothing is kept.
   std::uint64_t revision = 0;
 
   std::size_t size() const { return points.size(); }
@@ -32,7 +36,14 @@ struct Receivers {
   bool are_pixels() const { return width > 0; }
 };
 
-/// Throws UsageError where arrays have different lengths or numbers are not finite. Cost O(receivers).
+/// Of the points of those that are present. Cost O(receivers).
+Bounds bounds_of_present(const Receivers& receivers);
+
+/// A number that no receivers of this process have yet.
+std::uint64_t new_revision();
+
+/// Throws UsageError where arrays have different lengths, numbers are not finite, normals are not of length 1, or a
+/// picture's size does not fit. Cost O(receivers).
 void require_valid(const Receivers& receivers);
 
 }  // namespace penumbra

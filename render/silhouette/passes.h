@@ -75,10 +75,10 @@ class Tiles {
     const auto finish = [&](std::uint32_t& waiting, std::uint32_t next) {
       waiting = (waiting & ~(1u << pass)) | next;
       if (waiting != 0) return;
-      const std::size_t finished = ++done_;
-      if (!progress_ || !reporting.try_lock()) return;
-      if (!progress_(static_cast<double>(finished) / static_cast<double>(waiting_.size()))) stop = true;
-      reporting.unlock();
+      ++done_;
+      if (!progress_) return;
+      const std::unique_lock lock(reporting, std::try_to_lock);
+      if (lock && !progress_(static_cast<double>(done_) / static_cast<double>(waiting_.size()))) stop = true;
     };
     threads.execute([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {

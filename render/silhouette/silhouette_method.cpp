@@ -13,9 +13,6 @@
 namespace penumbra {
 namespace {
 
-// Memory: hierarchies in so many frames are kept. A scene of more lights makes them anew.
-constexpr std::size_t kMostFrames = 8;
-
 Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
   return {{"faces", c.faces},
           {"casters_that_cannot_occlude", c.casters_that_cannot_occlude},
@@ -44,14 +41,14 @@ Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
           {"open", open}};
 }
 
-/// What both methods share: hierarchies, kept for the frames of the last few lights.
+/// What both methods share: hierarchies, kept for the frames of the last lights (MethodInput::kept_frames).
 class BySilhouettes : public Method {
  public:
   explicit BySilhouettes(const Scene& objects) : scene_(objects) {}
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
-    detail::EdgeHierarchies& hierarchies = hierarchies_for(input.rays.frame());
+    detail::EdgeHierarchies& hierarchies = hierarchies_for(input);
     MethodResult out;
     run_on_disk(input, require_disk(input.light, "silhouettes"), hierarchies, out);
     out.setup = {{"edge_hierarchy", hierarchies.milliseconds()}};
@@ -64,14 +61,15 @@ class BySilhouettes : public Method {
   const Scene& scene_;
 
  private:
-  detail::EdgeHierarchies& hierarchies_for(const RayFrame& frame) {
+  detail::EdgeHierarchies& hierarchies_for(const MethodInput& input) {
+    const RayFrame& frame = input.rays.frame();
     const auto known = std::find_if(hierarchies_.begin(), hierarchies_.end(),
                                     [&](const detail::EdgeHierarchies& h) { return h.frame() == frame; });
     if (known != hierarchies_.end()) {
       hierarchies_.splice(hierarchies_.begin(), hierarchies_, known);
     } else {
       hierarchies_.emplace_front(scene_, frame);
-      if (hierarchies_.size() > kMostFrames) hierarchies_.pop_back();
+      if (hierarchies_.size() > input.kept_frames) hierarchies_.pop_back();
     }
     return hierarchies_.front();
   }
@@ -88,12 +86,13 @@ class SilhouetteMethod : public BySilhouettes {
                    MethodResult& out) const override {
     SilhouetteOptions options{.rows = static_cast<int>(integer_of(input.options, "silhouette-rows")),
                               .tolerance = real_of(input.options, "silhouette-tolerance")};
-    SilhouetteResult seen = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers,
-                                                  options, input.progress);
+    SilhouetteResult seen =
+        silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers, options,
+                              part_of(input.progress, 0.0, input.with_unoccluded ? 0.5 : 1.0));
     if (input.with_unoccluded) {
       options.horizon = false;
       out.unoccluded = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers, options,
-                                             input.progress)
+                                             part_of(input.progress, 0.5, 1.0))
                            .visibility;
     }
     out.visibility = std::move(seen.visibility);
@@ -111,10 +110,11 @@ class RaysMethod : public BySilhouettes {
   void run_on_disk(const MethodInput& input, const DiskLight& light, detail::EdgeHierarchies& hierarchies,
                    MethodResult& out) const override {
     SilhouetteResult seen = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers,
-                                                  {.integrate = false}, input.progress);
+                                                  {.integrate = false}, part_of(input.progress, 0.0, 0.5));
     StageClock clock;
-    const ReferenceResult traced = trace_reference(input.rays, light, input.receivers, seen.open,
-                                                   sampling_of(input.options), false, input.progress);
+    const ReferenceResult traced =
+        trace_reference(input.rays, light, input.receivers, seen.open, sampling_of(input.options), false,
+                        part_of(input.progress, 0.5, 1.0));
     for (std::size_t i = 0; i < seen.open.size(); ++i) seen.visibility[seen.open[i]] = traced.visibility[i];
     seen.counts.rays += traced.rays;
     clock.finish("rays");
@@ -148,6 +148,7 @@ MethodInfo silhouette_method() {
   return {.name = "silhouette",
           .summary = "exact areas between the edges that each receiver sees, without noise",
           .certifies = true,
+          .gives_unoccluded = true,
           .options = silhouette_options(),
           .make = [](const Scene& objects) { return std::make_unique<SilhouetteMethod>(objects); }};
 }

@@ -44,15 +44,14 @@ void trace_fallback(const RayScene& rays, const DiskLight& light, const Receiver
 
 void require_valid(const DiskLight& light, const SilhouetteOptions& options) {
   if (!(light.radius > 0.0)) throw UsageError("silhouettes need a light of radius above 0");
-  for (const OptionSchema& option : silhouette_options()) {
-    if (option.name == "silhouette-rows") option.require_allowed(static_cast<std::uint64_t>(options.rows));
-    if (option.name == "silhouette-tolerance") option.require_allowed(options.tolerance);
-  }
+  const std::vector<OptionSchema> schema = silhouette_options();
+  require_allowed(schema, "silhouette-rows", static_cast<std::uint64_t>(options.rows));
+  require_allowed(schema, "silhouette-tolerance", options.tolerance);
 }
 
 /// Of receivers that need not lie on the scene; of pixels nothing.
 Bounds bounds_beside_scene(const Receivers& receivers) {
-  return receivers.are_pixels() ? Bounds() : bounds_of(receivers.points);
+  return receivers.are_pixels() ? Bounds() : bounds_of_present(receivers);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ const std::vector<Rule>& rules() {
       {"what is shared includes no method", "render/" + kShared, kNever, kMethod,
        {"render/rays/ray_scene.cpp", "render/silhouette/silhouette_visibility.h"}},
       {"gl is for methods that draw, renderers, the viewer",
-       "(render/(gl|d_buffer|occlusion_textures)/|render/renderer|apps/viewer/|tests/)", kAlone, "render/gl/",
+       "(render/gl/|render/(?!" + kShared + ")\\w+/|render/renderer|apps/viewer/|tests/)", kAlone, "render/gl/",
        {"render/image/image.cpp", "render/gl/program.h"}},
       {"visibility draws nothing", kVisibility, kNever, "render/(gl|d_buffer|occlusion_textures|shading|image)/",
        {"render/visibility.cpp", "render/gl/context.h"}},

@@ -65,7 +65,7 @@ void ProbeView::draw(const State& state, const Frame* frame, const Pointer& poin
     texture_.upload(answer.disk);
     answer_ = std::move(answer);
   }
-  if (!state.probe || !frame || frame->sides.empty()) return;
+  if (!state.probe || !frame || frame->sides.empty() || frame->model != state.model) return;
   if (pointer.at() && !pointer.dragging()) at_ = pointer.at();
   if (!at_) at_ = PicturePoint{0.5 * state.left.width, 0.6 * state.left.height};
   place_.reset();

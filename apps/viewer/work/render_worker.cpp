@@ -141,6 +141,7 @@ void RenderWorker::run() {
 Frame RenderWorker::first_frame(const RenderJob& job) const {
   Frame frame;
   frame.number = job.number;
+  frame.model = job.model;
   frame.lights = job.lights;
   frame.selected = job.selected;
   frame.camera = job.camera;

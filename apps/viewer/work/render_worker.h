@@ -42,6 +42,7 @@ struct Frame {
   int reduction = 1;          ///< of a draft
   bool refining = false;      ///< more rays are on their way
   double milliseconds = 0.0;  ///< wall clock, all sides, set-up included
+  std::shared_ptr<const Scene> model;
   std::vector<Light> lights;
   std::size_t selected = 0;
   Camera camera;
