@@ -60,7 +60,7 @@ Case degenerate_case(Random& random) {
   Vec3 normal, center = q;
   do normal = random.lattice(3);
   while (glm::dot(normal, x - q) <= 0);
-  if (random.integer(0, 3) == 0) center += 0.125 * normal;
+  if (random.integer(0, 2) == 0) center += 0.125 * random.integer(-3, 1) * normal;  // before or behind q
   if (glm::dot(normal, x - center) <= 0) center = q;
 
   const Vec3 offset =
@@ -112,6 +112,57 @@ TEST(OracleProperty, DegenerateRaysAgreeWithRationals) {
   EXPECT_GT(rim, 1000);
   EXPECT_GT(flat, 300);
   EXPECT_GT(unsigned_by_double, 3000);
+}
+
+/// Points a few roundings above a plane of rounded coordinates, both sides of the limit of four.
+TEST(OracleProperty, PlanesOfFacesAreToldAsStated) {
+  int flat = 0;
+  for (std::uint64_t seed = 0; seed < 5000; ++seed) {
+    Random random(seed);
+    const Vec3 origin = random.point(std::pow(10.0, random.integer(-3, 3)));
+    const Corners face{origin + random.point(1), origin + random.point(1), origin + random.point(1)};
+    const double s = random.uniform(-1, 2), t = random.uniform(-1, 2);
+    Vec3 x = face.a + s * (face.b - face.a) + t * (face.c - face.a);
+    const int axis = random.integer(0, 2);
+    for (int steps = random.integer(0, 30); steps > 0; --steps) x[axis] = std::nextafter(x[axis], 1e300);
+    const FacePoints points = {exact(face.a), exact(face.b), exact(face.c), exact(x)};
+    const bool expected = is_flat(points);
+    ASSERT_EQ(side_of_face(x, face), expected ? 0 : sgn(volume(points))) << "seed " << seed;
+    flat += expected;
+  }
+  EXPECT_GT(flat, 1000);
+  EXPECT_LT(flat, 4000);
+}
+
+/// A light's plane through a point that is computed on the face, and points of a plane through q.
+TEST(OracleProperty, PlanesOfLightsAndHorizonsAreExact) {
+  int before = 0, above = 0;
+  for (std::uint64_t seed = 0; seed < 5000; ++seed) {
+    Random random(seed);
+    const Vec3 origin = random.point(std::pow(10.0, random.integer(-3, 3)));
+    const Corners face{origin + random.point(1), origin + random.point(1), origin + random.point(1)};
+    const Vec3 x = origin + random.point(2);
+    const Vec3 at = face.a + 0.25 * (face.b - face.a) + 0.25 * (face.c - face.a),
+               q = at + random.uniform(0.5, 2) * (at - x);
+    Vec3 m = random.point(1);
+    if (glm::dot(m, x - q) < 0) m = -m;
+    const Ray ray{x, q, at + random.uniform(-1, 1) * glm::cross(m, random.point(1)), m};
+    const RationalPoint exact_m = exact(m), d = minus(exact(q), exact(x));
+    const RationalPoint n = cross(minus(exact(face.b), exact(face.a)), minus(exact(face.c), exact(face.a)));
+    const RationalPoint to_light = minus(exact(ray.center), exact(x));
+    if (dot(exact_m, to_light) >= 0 || dot(exact_m, d) >= 0) continue;
+    const Rational hit = dot(n, minus(exact(face.a), exact(x))) / dot(n, d);
+    const Rational end = dot(exact_m, to_light) / dot(exact_m, d);
+    ASSERT_EQ(is_before_light(ray, face), hit < end) << "seed " << seed;
+    const int side = sgn(dot(exact_m, minus(exact(ray.center), exact(at))));
+    ASSERT_EQ(sign_of_dot(m, ray.center, at), side) << "seed " << seed;
+    before += hit < end;
+    above += side > 0;
+  }
+  for (const int count : {before, above}) {
+    EXPECT_GT(count, 1000);
+    EXPECT_LT(count, 4000);
+  }
 }
 
 /// Bounds hold, and are tight enough to be of use.
@@ -177,6 +228,26 @@ TEST(OracleProperty, HierarchyFindsWhatAllFacesDo) {
   }
   EXPECT_GT(blocked, rays / 5);
   EXPECT_LT(blocked, rays * 9 / 10);
+}
+
+/// The sheet is its own box in the hierarchy, without thickness: a ray to its rim hits both or neither.
+TEST(OracleProperty, RaysToTheRimOfABoxAreNotLost) {
+  int blocked = 0;
+  for (std::uint64_t seed = 0; seed < 20000; ++seed) {
+    Random random(seed);
+    const double x0 = random.uniform(-1, 0), z0 = random.uniform(-1, 0);
+    const TriangleMesh sheet = make_sheet(random.uniform(1, 2), x0, x0 + 1, z0, z0 + 1);
+    const Vec3 a = sheet.positions()[0], b = sheet.positions()[1];
+    const Vec3 x = random.point(1), aim = a + random.uniform(0, 1) * (b - a);
+    const Vec3 q = aim + random.uniform(0.5, 2) * (aim - x);
+    const DiskLight light{q, x - q, 1.0};
+    const Oracle oracle(std::span(&sheet, 1));
+    const bool expected = oracle.blocked_by_any(x, q, {}, light);
+    ASSERT_EQ(oracle.blocked(x, q, {}, light), expected) << "seed " << seed;
+    blocked += expected;
+  }
+  EXPECT_GT(blocked, 5000);
+  EXPECT_LT(blocked, 15000);
 }
 
 /// A plane of many triangles, turned and moved, so that all coordinates are rounded.

@@ -54,12 +54,15 @@ TEST(OracleSamples, ErrorOfAHalfPlaneIsAsStated) {
 TEST(OracleSamples, LieOnTheDisk) {
   const DiskLight light{{3, -2, 5}, {1e-200, 2e-200, -3e-200}, 0.25};
   Vec3 mean(0.0);
+  double squares = 0;
   for (const Vec3& p : light_samples(light, 1000, 5)) {
     const Vec3 d = p - light.center;
     EXPECT_NEAR(d.x + 2 * d.y - 3 * d.z, 0, 1e-14);  // six roundings of coordinates up to 5.3
     EXPECT_LE(std::hypot(d.x, d.y, d.z), 0.25);
     mean += d / 1000.0;
+    squares += glm::dot(d, d) / 1000;
   }
+  EXPECT_NEAR(squares, 0.25 * 0.25 / 2, 1e-14) << "equal areas";
   EXPECT_LT(std::hypot(mean.x, mean.y, mean.z), 1e-3);
 }
 
