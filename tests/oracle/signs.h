@@ -1,8 +1,7 @@
 // Signs of polynomials in coordinates, always right: in double with a bound on the error, and by rational numbers
 // where the bound leaves the sign open.
 //
-// Every function takes the coordinates as given. They must be finite and below 1e75, so that products of four of them
-// do not overflow; on overflow the rational numbers decide.
+// Coordinates count as given and must be finite. Where products overflow or underflow, the rational numbers decide.
 #pragma once
 
 #include <optional>
