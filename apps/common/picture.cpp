@@ -49,7 +49,7 @@ void Picture::draw(int x, int y, const Picture& other) {
 }
 
 void Picture::write(int x, int y, const std::string& text, Color color) {
-  // Four corners of 16 bytes (x, y, z as float, then a colour) for each axis-parallel box that letters are
+  // Four corners of 16 bytes (x, y, z as float, then a color) for each axis-parallel box that letters are
   // made of.
   struct Corner {
     float x, y, z;

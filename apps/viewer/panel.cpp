@@ -90,8 +90,8 @@ void shown_widgets(State& state, Places& places) {
   int shown = static_cast<int>(state.shown);
   constexpr const char* kNames[] = {"picture", "visibility", "certified"};
   constexpr const char* kHelp[] = {
-      "colours", "the fraction of the disk that is seen, black to white",
-      "by the methods silhouette and rays: yellow lit, orange partial, blue umbra, grey not certified"};
+      "colors", "the fraction of the disk that is seen, black to white",
+      "by the methods silhouette and rays: yellow lit, orange partial, blue umbra, gray not certified"};
   for (int i = 0; i < 3; ++i) {
     if (i) ImGui::SameLine();
     ImGui::RadioButton(kNames[i], &shown, i);

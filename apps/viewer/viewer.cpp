@@ -44,7 +44,7 @@ class Viewer {
   void obey_view(Command command);
   void keys();
   void open(const std::filesystem::path& path);
-  void open_neighbour(int step);
+  void open_neighbor(int step);
   void take_screenshot_when_due();
   bool too_soon() const;
   bool settled() const { return wishes_.settled(view_.frame()); }
@@ -306,10 +306,10 @@ void Viewer::obey(Command command) {
       window_.close();
       break;
     case Command::kNextFile:
-      open_neighbour(1);
+      open_neighbor(1);
       break;
     case Command::kPreviousFile:
-      open_neighbour(-1);
+      open_neighbor(-1);
       break;
     case Command::kSavePicture:
     case Command::kSaveState:
@@ -342,7 +342,7 @@ void Viewer::open(const std::filesystem::path& path) {
   frames_to_draw_ = 3;
 }
 
-void Viewer::open_neighbour(int step) {
+void Viewer::open_neighbor(int step) {
   const std::size_t count = options_.files.size();
   if (count < 2) return;
   file_ = (file_ + count + static_cast<std::size_t>(step + static_cast<int>(count))) % count;
@@ -377,7 +377,7 @@ void Viewer::draw_help() {
   ImGui::Begin("Keys", &show_help_, ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted(
       "Left drag turns, middle or Shift drag pans, the wheel zooms to the pointer,\n"
-      "a double click sets the centre. Drag the light's arrows, its centre, the tip\n"
+      "a double click sets the center. Drag the light's arrows, its center, the tip\n"
       "of its normal (tilt) or its rim (radius). Files dropped on the window open.");
   ImGui::Separator();
   ImGui::Columns(2, "keys", false);

@@ -90,7 +90,7 @@ struct DBufferOptions {
 };
 
 /// Texels a side that are about as many as the image's pixels: the root of their number, up to the next
-/// multiple of 64, 512 to 4096. More shows in few scenes (README), and the time to draw grows with the area.
+/// multiple of 64, 512 to 4096. More shows in few scenes, and the time to draw grows with the area.
 int d_buffer_size_for(int width, int height);
 
 struct DBufferFrame {

@@ -42,7 +42,7 @@ double quantile(std::vector<double>& values, double fraction) {
   return *nth;
 }
 
-// 95% interval of the RMSE: means over pixels drawn with replacement. Errors of neighbouring pixels are not
+// 95% interval of the RMSE: means over pixels drawn with replacement. Errors of neighboring pixels are not
 // independent, so this states how well the *pixels at hand* fix the figure, not how other views would
 // scatter.
 void add_interval(ErrorFigures& figures, const std::vector<double>& products) {

@@ -24,7 +24,7 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 /// Every channel, converted to float. Throws UsageError for what is not a readable EXR.
 Image read_exr(const std::filesystem::path& path);
 
-/// 8-bit sRGB of R G B times 2^exposure, clipped, width·height·3; where A = 0 a light grey background.
+/// 8-bit sRGB of R G B times 2^exposure, clipped, width·height·3; where A = 0 a light gray background.
 std::vector<unsigned char> encode_srgb(const Image& image, double exposure_stops = 0.0);
 /// The same as a PNG file. Whole or not at all. Throws SystemError.
 void write_png(const std::filesystem::path& path, const Image& image, double exposure_stops = 0.0);

@@ -14,7 +14,7 @@
 namespace penumbra {
 namespace {
 
-constexpr unsigned char kBackground = 230;  // light grey, sRGB
+constexpr unsigned char kBackground = 230;  // light gray, sRGB
 
 // IEC 61966-2-1, linear [0, 1] to 8 bits.
 unsigned char to_srgb(float linear) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLanes = 16;
 
-/// The faces seen through up to 16 neighbouring pixels of a row.
+/// The faces seen through up to 16 neighboring pixels of a row.
 void trace_row_part(const RayScene& rays, const PixelRays& pixels, int x0, int y, int count,
                     RTCRayHit16& packet, int* valid) {
   const RayFrame& frame = rays.frame();

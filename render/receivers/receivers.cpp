@@ -54,6 +54,7 @@ void require_valid(const Receivers& receivers) {
       throw UsageError("the point of receiver " + std::to_string(i) + " is not finite");
   for (std::size_t i = 0; i < receivers.normals.size(); ++i) {
     const Vec3& n = receivers.normals[i];
+    if (!is_finite(n)) throw UsageError("the normal of receiver " + std::to_string(i) + " is not finite");
     if (receivers.is_present(i) && !(std::abs(glm::dot(n, n) - 1.0) <= kUnit))
       throw UsageError("the normal of receiver " + std::to_string(i) + " has not length 1");
   }

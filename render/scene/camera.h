@@ -18,7 +18,7 @@ struct Camera {
 struct PixelRays {
   PixelRays(const Camera& camera, int width, int height);
   Vec3 origin;
-  /// Direction through (x, y) in pixels, (0, 0) the top left corner of the image; a pixel's centre is at +
+  /// Direction through (x, y) in pixels, (0, 0) the top left corner of the image; a pixel's center is at +
   /// 0.5.
   Vec3 direction(double x, double y) const;
 

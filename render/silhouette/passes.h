@@ -1,4 +1,4 @@
-// Silhouette method, before step 2: in which order receivers are served, and by which edges.
+// Silhouette method, before edges are collected: in which order receivers are served, and by which edges.
 //
 // Casters may have levels of merged edges (merged_edges.h). All tiles begin with the coarsest level that may
 // do; receivers for which its edges are moved too far are left to a later pass, the last of which has the

@@ -1,4 +1,4 @@
-// Render step 5, the silhouette method: visibility without noise, from the silhouette each receiver sees.
+// The silhouette method: visibility without noise, from the silhouette each receiver sees.
 //
 // In: surface points. Out: V per pixel, and for many of them a certificate. Five steps, one header each:
 //

@@ -206,7 +206,7 @@ TEST(TriangleMesh, MoebiusStripIsCutAtOneEdge) {
   EXPECT_EQ(euler_characteristic(mesh), 1) << "an untwisted strip";
 }
 
-TEST(TriangleMesh, MisorientedFaceKeepsItsLikeMindedNeighbours) {
+TEST(TriangleMesh, MisorientedFaceKeepsItsLikeMindedNeighbors) {
   // A strip of four triangles, the last two turned round: only the edge between the pairs is cut.
   const std::vector<Vec3> positions = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {2, 0, 0}, {2, 1, 0}};
   const TriangleMesh mesh =

@@ -18,8 +18,8 @@ Color region_color(float region) {
 }
 
 Color visibility_color(float visibility) {
-  const auto grey = static_cast<unsigned char>(std::lround(255.0f * std::clamp(visibility, 0.0f, 1.0f)));
-  return {grey, grey, grey};
+  const auto gray = static_cast<unsigned char>(std::lround(255.0f * std::clamp(visibility, 0.0f, 1.0f)));
+  return {gray, gray, gray};
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class DiskRaster {
     if (column < 0 || row < 0 || column >= size_ || row >= size_) return false;
     return covered_[index(column, row)] != 0;
   }
-  /// The place of a pixel's centre in radii.
+  /// The place of a pixel's center in radii.
   Point2 place(int column, int row) const {
     return {kExtent * (2.0 * (column + 0.5) / size_ - 1.0), kExtent * (1.0 - 2.0 * (row + 0.5) / size_)};
   }

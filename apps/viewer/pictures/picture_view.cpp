@@ -29,7 +29,7 @@ std::string title_of(const Side& side) {
   return text;
 }
 
-// The colours of the difference with their numbers, at the lower left.
+// The colors of the difference with their numbers, at the lower left.
 void draw_scale(ImDrawList& list, float bottom, double scale) {
   constexpr int kSteps = 120;
   for (int i = 0; i < kSteps; ++i) {

@@ -13,9 +13,9 @@ enum class Arrangement { kSingle, kSplit, kDifference };
 
 /// What of the picture is shown.
 enum class Shown {
-  kPicture,     ///< colours
+  kPicture,     ///< colors
   kVisibility,  ///< the fraction of the disk, black to white
-  kRegion,      ///< what is certified: yellow lit, orange partial, blue umbra; grey nothing
+  kRegion,      ///< what is certified: yellow lit, orange partial, blue umbra; gray nothing
 };
 
 /// Across what sheets and volumes are cut.
@@ -48,7 +48,7 @@ struct State {
   Shown shown = Shown::kPicture;
   double divider = 0.5;           ///< part of the width that shows the left method
   double exposure = 0.0;          ///< stops
-  double difference_scale = 0.1;  ///< visibility that saturates the colours
+  double difference_scale = 0.1;  ///< visibility that saturates the colors
   Overlays overlays;
   bool probe = false;
   int revision = 0;  ///< grows whenever a method or a setting changes

@@ -189,7 +189,7 @@ void PrintTo(const BadUsage& bad, std::ostream* out) {
 const BadUsage kBadUsages[] = {
     {"NoCommand", {}, 2, "subcommand"},
     {"UnknownCommand", {"rendr", "SCENE"}},
-    {"UnknownOption", {"render", "SCENE", "--colour", "red"}, 2, "--colour"},
+    {"UnknownOption", {"render", "SCENE", "--color", "red"}, 2, "--color"},
     {"NoScene", {"render", "--output", "o.png"}, 2, "SCENE"},
     {"NothingToDo", {"render", "SCENE"}, 2, "--output"},
     {"NoVolumesAsked", {"volumes", "SCENE"}, 2, "--umbra"},
@@ -220,7 +220,7 @@ const BadUsage kBadUsages[] = {
     {"FolderMissing", {"render", "SCENE", "--output", "no/such/folder/o.png"}, 1, "no/such/folder"},
     {"FolderIsFile", {"volumes", "SCENE", "--umbra", "SCENE/u.ply"}, 1, "u.ply"},
     {"StatsFolderMissing", {"render", "SCENE", "--output", "o.png", "--stats", "no/s.json"}, 1, "no/s.json"},
-    {"NotStrictlyKnown", {"classify", "ODD", "--strict"}, 3, "/objects/0/colour"},
+    {"NotStrictlyKnown", {"classify", "ODD", "--strict"}, 3, "/objects/0/color"},
 };
 
 class BadUsageTest : public ProgramTest, public testing::WithParamInterface<BadUsage> {};
@@ -228,7 +228,7 @@ class BadUsageTest : public ProgramTest, public testing::WithParamInterface<BadU
 TEST_P(BadUsageTest, IsRefused) {
   write("t.off", kTetrahedron);
   const std::string scene = write("scene.json", scene_text("t.off"));
-  const std::string odd = write("odd.json", scene_text("t.off", R"(,"colour":[1,0,0])"));
+  const std::string odd = write("odd.json", scene_text("t.off", R"(,"color":[1,0,0])"));
   const Strings before = files();
   Strings arguments = GetParam().arguments;
   for (std::string& each : arguments) {

@@ -167,11 +167,11 @@ TEST_F(CommandTest, RepairWritesAMendedMeshAndSaysWhatWasDone) {
 }
 
 TEST_F(CommandTest, UnknownKeysWarnOnOneLineEach) {
-  const std::string odd = write("odd.json", scene_text("t.off", R"(,"colour":[1,0,0],"x-note":"kept")"));
+  const std::string odd = write("odd.json", scene_text("t.off", R"(,"color":[1,0,0],"x-note":"kept")"));
   const Outcome outcome = run({"classify", odd});
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
-  EXPECT_NE(outcome.err.find("warning: " + odd + ": /objects/0/colour"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("warning: " + odd + ": /objects/0/color"), std::string::npos) << outcome.err;
 }
 
 TEST_F(CommandTest, RenderWritesBothFormatsAndStats) {

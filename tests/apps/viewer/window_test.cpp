@@ -13,7 +13,7 @@ namespace {
 
 const std::string kCube = PENUMBRA_DATA "/scenes/cube-medium.json";
 
-// Distinct colours of the left `width` columns: a blank window has one.
+// Distinct colors of the left `width` columns: a blank window has one.
 std::size_t colors(const std::filesystem::path& path, int columns) {
   int width = 0, height = 0, channels = 0;
   unsigned char* pixels = stbi_load(path.c_str(), &width, &height, &channels, 3);
@@ -202,7 +202,7 @@ TEST_F(WindowTest, IsResizedHiddenAndShownAgain) {
   EXPECT_EQ(tool("search --name Penumbra windowunmap"), 0);
   EXPECT_EQ(tool("search --name Penumbra windowmap --sync windowfocus --sync"), 0);
   key("m");
-  settled("another method", [](const Json& s) { return s["method"] == "occlusion-textures"; });
+  settled("another method", [](const Json& s) { return s["method"] == "reference"; });
 }
 
 TEST_F(WindowTest, IsMinimisedAndRestored) {
@@ -217,7 +217,7 @@ TEST_F(WindowTest, IsMinimisedAndRestored) {
     return tool("search --onlyvisible --name Penumbra windowactivate --sync") == 0;
   });
   key("m");
-  settled("another method", [](const Json& s) { return s["method"] == "occlusion-textures"; });
+  settled("another method", [](const Json& s) { return s["method"] == "reference"; });
 }
 
 TEST_F(WindowTest, MiddleDragPansAndDoubleClickLooksAtAPoint) {
@@ -231,7 +231,7 @@ TEST_F(WindowTest, MiddleDragPansAndDoubleClickLooksAtAPoint) {
     EXPECT_NEAR(panned["eye"][k].get<double>() - before["eye"][k].get<double>(),
                 panned["target"][k].get<double>() - before["target"][k].get<double>(), 1e-9);
   tool("mousemove 100 170 click --repeat 2 --delay 150 1");
-  settled("another centre", [&](const Json& s) { return s["camera"]["target"] != panned["target"]; });
+  settled("another center", [&](const Json& s) { return s["camera"]["target"] != panned["target"]; });
   EXPECT_EQ(status()["camera"]["eye"], panned["eye"]);
 }
 
@@ -272,7 +272,7 @@ TEST_F(WindowTest, RandomInputNeitherCrashesNorGrows) {
 
 TEST_F(WindowTest, BadInputIsOneLineAndItsExitCode) {
   for (const auto& [arguments, code] : {std::pair(std::vector<std::string>{"nowhere.json"}, 3),
-                                        {{kCube, "--colour"}, 2},
+                                        {{kCube, "--color"}, 2},
                                         {{kCube, "--method", "magic"}, 2},
                                         {{kCube, "--size", "0x4"}, 2}}) {
     EXPECT_EQ(start(arguments).wait(), code) << arguments.back();

@@ -129,7 +129,7 @@ TEST(ReadMesh, CoordinatesMustBeFinite) {
   EXPECT_NE(error_in(stl, "a.stl").find("vertex 1"), std::string::npos);
 }
 
-TEST(ReadOff, HeadersCommentsAndColours) {
+TEST(ReadOff, HeadersCommentsAndColors) {
   const std::string body = "# a comment\n3 1 3\n0 0 0 # origin\n\n1 0 0\n0 1 0\n3 0 1 2 # face\n";
   EXPECT_EQ(parse("OFF\n" + body, "a.off").polygon_count(), 1u);
   EXPECT_EQ(parse(body, "a.off").polygon_count(), 1u) << "the header word may be missing";

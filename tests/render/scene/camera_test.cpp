@@ -9,7 +9,7 @@
 namespace penumbra {
 namespace {
 
-TEST(Camera, CentreOfTheImageLooksAtTheTarget) {
+TEST(Camera, CenterOfTheImageLooksAtTheTarget) {
   const Camera camera{.eye = {3, 2, 5}, .target = {0, 0.5, 0}, .up = {0, 1, 0}, .fov_y_degrees = 50};
   const PixelRays rays(camera, 64, 48);
   EXPECT_EQ(rays.origin, camera.eye);
