@@ -13,5 +13,6 @@ void add_volumes_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_classify_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_methods_command(CLI::App& app);
 
 }  // namespace penumbra::apps

@@ -29,6 +29,8 @@ struct Arguments {
   SceneInput scene;
   std::filesystem::path image, beside, picture, signed_difference;
   TraceOptions trace;
+  std::string judge = "rays";
+  std::size_t judge_pixels = 20'000;
   Judged judged;
   bool json = false;
   double exposure = 0.0;
@@ -38,6 +40,8 @@ struct Arguments {
 };
 
 void check(const Arguments& arguments) {
+  if (arguments.judge == "double" && arguments.against_image())
+    throw UsageError("--judge double needs the scene as B; an image is taken as it is");
   require_extension("A", arguments.image, {".exr"}, false);
   if (!arguments.beside.empty()) require_extension("--beside", arguments.beside, {".exr"}, false);
   const std::pair<const char*, const std::filesystem::path*> pictures[] = {
@@ -70,6 +74,7 @@ nlohmann::json to_json(const Arguments& arguments, const Comparison& comparison)
   if (arguments.judged.object) report["object"] = *arguments.judged.object;
   if (!arguments.judged.light.empty()) report["light"] = arguments.judged.light;
   if (comparison.samples == 0) return report;
+  report["judge"] = arguments.judge;
   report["samples"] = comparison.samples;
   report["resampled_pixels"] = comparison.resampled;
   report["resamples"] = comparison.resamples;
@@ -94,11 +99,16 @@ std::string to_table(const Comparison& comparison) {
   text += table_row("all receivers", comparison.all) + table_row("true penumbra", comparison.in_penumbra);
   char line[256];
   if (comparison.samples > 0) {
-    std::snprintf(
-        line, sizeof line,
-        "two references of %d samples; worst %zu pixels again at %d; %.1f s, %.0f million rays a second\n",
-        comparison.samples, comparison.resampled, comparison.resamples, comparison.seconds,
-        1e-6 * static_cast<double>(comparison.rays) / comparison.seconds);
+    if (comparison.resampled == 0)
+      std::snprintf(line, sizeof line, "two references of %d samples; %.1f s, %.2f million rays a second\n",
+                    comparison.samples, comparison.seconds,
+                    1e-6 * static_cast<double>(comparison.rays) / comparison.seconds);
+    else
+      std::snprintf(
+          line, sizeof line,
+          "two references of %d samples; worst %zu pixels again at %d; %.1f s, %.0f million rays a second\n",
+          comparison.samples, comparison.resampled, comparison.resamples, comparison.seconds,
+          1e-6 * static_cast<double>(comparison.rays) / comparison.seconds);
     text += line;
   }
   if (comparison.skipped > 0) {
@@ -170,8 +180,21 @@ void add_compare_command(CLI::App& app) {
   command
       .add_option("B", arguments->scene.path, "What is right: an EXR, or the scene that A was rendered from")
       ->required();
-  command.add_option("--samples", arguments->trace.samples, "Rays a pixel of each of the two references")
-      ->check(CLI::Range(16, 1 << 20))
+  CLI::Option* samples =
+      command.add_option("--samples", arguments->trace.samples, "Rays a pixel of each of the two references")
+          ->check(CLI::Range(16, 1 << 20))
+          ->capture_default_str();
+  command
+      .add_option(
+          "--judge", arguments->judge,
+          "What traces the references: rays (Embree, with the offset that all methods have), or double "
+          "(without offset, at some pixels, 1,024 rays each unless --samples says otherwise)")
+      ->check(CLI::IsMember({"rays", "double"}))
+      ->capture_default_str();
+  command
+      .add_option("--judge-pixels", arguments->judge_pixels,
+                  "Pixels at which --judge double looks, chosen by chance")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 32))
       ->capture_default_str();
   command
       .add_option("--light", arguments->judged.light,
@@ -198,7 +221,13 @@ void add_compare_command(CLI::App& app) {
   add_strict_option(command, arguments->scene);
   add_common_options(command, arguments->common);
   command.footer(kFooter);
-  command.callback([arguments] { run(*arguments); });
+  command.callback([arguments, samples] {
+    if (arguments->judge == "double") {
+      arguments->trace.oracle_pixels = arguments->judge_pixels;
+      if (samples->empty()) arguments->trace.samples = 1'024;
+    }
+    run(*arguments);
+  });
 }
 
 }  // namespace penumbra::apps

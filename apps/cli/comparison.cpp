@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
+#include "apps/cli/judge.h"
 #include "apps/common/messages.h"
 #include "penumbra/mesh/error.h"
 #include "render/rays/camera_rays.h"
@@ -197,16 +198,28 @@ Comparison compare_to_scene(const Image& image, const Scene& scene, const Judged
                      " pixels; give the scene that it was rendered from");
 
   Tracer tracer(rays, scene.lights[light].shape, surface, comparison);
+  std::optional<Judge> judge;
+  if (options.oracle_pixels > 0) {
+    judge.emplace(scene, require_disk(scene.lights[light].shape, "--judge double"));
+    comparison.judged = some_of(std::move(comparison.judged), options.oracle_pixels);
+  }
   const auto reference = [&](int k) {
     const std::string label = "reference " + std::to_string(k + 1) + " of 2";
-    return spread(tracer.trace(comparison.judged, options.samples, kSeeds[k], label), comparison.judged,
-                  surface.size());
+    if (!judge)
+      return spread(tracer.trace(comparison.judged, options.samples, kSeeds[k], label), comparison.judged,
+                    surface.size());
+    ProgressLine progress(label);
+    comparison.rays += comparison.judged.size() * static_cast<std::size_t>(options.samples);
+    return spread(
+        judge->visibility(surface, comparison.judged, options.samples, kSeeds[k], progress.callback()),
+        comparison.judged, surface.size());
   };
   References references{.first = reference(0), .second = reference(1)};
   const std::vector<float>& method = image.at(judged.channel());
   comparison.samples = options.samples;
   set_figures(comparison, method, references);
-  if (!comparison.penumbra.empty()) resample_worst(comparison, method, std::move(references), tracer);
+  if (!judge && !comparison.penumbra.empty())
+    resample_worst(comparison, method, std::move(references), tracer);
   comparison.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return comparison;
 }

@@ -38,6 +38,8 @@ Comparison compare_images(const Image& image, const Image& reference, const Judg
 struct TraceOptions {
   int samples = 4'096;  ///< of each of the two references, with seeds of their own
   int threads = 0;
+  /// By rays in double without offset (judge.h) in place of Embree's, at so many pixels chosen by chance; 0: not.
+  std::size_t oracle_pixels = 0;
 };
 /// Throws SceneError where the image was not rendered from this scene, UsageError where the scene has several
 /// lights and none is named.

@@ -1,8 +1,8 @@
 // Silhouette method, before edges are collected: in which order receivers are served, and by which edges.
 //
-// Casters may have levels of merged edges (merged_edges.h). All tiles begin with the coarsest level that may
-// do; receivers for which its edges are moved too far are left to a later pass, the last of which has the
-// edges of all faces. A pass makes a band and goes over the tiles that wait for it.
+// Casters may have levels of merged edges (merged_edges.h). The first pass has the coarsest level that may do.
+// Receivers for which its edges lie too far off the true ones wait for a later pass. The last pass has the edges of
+// all faces. A pass makes a band, then goes over the groups that wait for it.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -33,7 +33,7 @@ struct Passes {
   int now = 0;
 
   int last() const { return static_cast<int>(levels.size()); }
-  /// The next one whose edges are hardly anywhere moved farther than that.
+  /// The next pass whose edges nearly all have a deviation within `allowed` (light radii).
   int next(double allowed) const {
     constexpr double kSpread = 1.5;
     int pass = now + 1;

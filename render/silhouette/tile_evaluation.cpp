@@ -57,7 +57,7 @@ void Evaluation::part(std::span<TileReceiver> receivers, Workspace& w) const {
   if (reached && !tree_.misses(shaft)) {
     if (band_.edges.size() > kShortList) shaft.tighten(receivers);  // costs more than few edges
     tree_.collect(shaft, w.blocks[0]);
-    const Moves m = moves(shaft, w.blocks[0]);
+    const Deviations m = deviations(shaft, w.blocks[0]);
     if (m.most > options_.tolerance) return leave(receivers, passes_.next(m.allowed), w);
     w.sliver = kSliver * m.most;
   }
@@ -86,10 +86,10 @@ void Evaluation::leave(std::span<TileReceiver> receivers, int pass, Workspace& w
 
 /// What lies at p is seen by x magnified by x.z/(x.z - p.z) and, at a slant, by |x - p|/(x.z - p.z) once
 /// more; p in a block's box, x in that of the receivers.
-Evaluation::Moves Evaluation::moves(const Shaft& shaft, const std::vector<NodeMask>& list) const {
+Evaluation::Deviations Evaluation::deviations(const Shaft& shaft, const std::vector<NodeMask>& list) const {
   const Vec3 middle = shaft.middle();
   const double lowest = middle.z - shaft.half().z, highest = middle.z + shaft.half().z;
-  Moves out;
+  Deviations out;
   for_each_block(list, [&](std::size_t block) {
     if (block >= band_.deviation.size() || !(band_.deviation[block] > 0.0f)) return;
     const BlockBounds& b = band_.bounds[block];
@@ -214,7 +214,7 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<NodeMask>& lis
 
 /// Nothing is across the disk for certain. Below a horizon that cuts the disk edges may have been left out:
 /// nothing is certified there. Of merged faces some may look the other way than their patch does.
-bool Evaluation::is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const {
+bool Evaluation::is_certain(std::size_t i, const DiskPart& part, Workspace& w) const {
   if (!w.projected.certain || part.is_cut()) return false;
   return !band_.is_merged() || w.uncertain.are_none(w.receivers[i], slack_);
 }
@@ -223,7 +223,7 @@ bool Evaluation::is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace&
 void Evaluation::judge(std::size_t i, Workspace& w) const {
   const TileReceiver& r = w.receivers[i];
   const DiskPart part(r.horizon);
-  w.certain[i] = is_beyond_doubt(i, part, w);
+  w.certain[i] = is_certain(i, part, w);
   if (w.projected.segments.empty()) {
     const glm::dvec2 middle = part.middle();
     VisibleAreaResult& result = w.areas[i];

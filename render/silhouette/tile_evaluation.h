@@ -1,10 +1,12 @@
-// Silhouette method: one pass over tiles of receivers, from the band's edges to V.
+// Silhouette method, one pass over groups of receivers: from the band's edges to V.
 //
-// In: a band of edges (all faces' or merged ones), a tile of the surface buffer. Out: V and region of its
-// receivers, but of those for which the band's merged edges are moved too far: they are left to a later pass
-// (passes.h). A tile collects the blocks of edges that matter to it, narrows the list down to parts
-// of the tile and to single receivers, and for each of these looks, integrates and fuses; then come the
-// tile's rays.
+// In: a band of edges (all faces' or merged ones), a group of up to 64 receivers. Out: V and region of these
+// receivers. A receiver for which the band's merged edges lie too far off the true ones gets no answer here: it
+// waits for a later pass (passes.h).
+//
+// A group collects the blocks of edges that matter to it. It narrows the list down to parts of the group and to
+// single receivers. Each receiver projects its edges, and integrates the area that they leave. Last come the
+// group's rays.
 #pragma once
 
 #include <array>
@@ -72,8 +74,8 @@ class Evaluation {
         passes_(passes),
         out_(out) {}
 
-  /// Looks at the tile's receivers whose turn it is. Returns the passes that those are left to for which the
-  /// band's edges are moved too far, as bits.
+  /// Answers the group's receivers that wait for the present pass. Returns the later passes that some of them then
+  /// wait for: bit i stands for pass i.
   std::uint32_t tile(std::size_t group, Workspace& w) const;
   /// What is known of the band.
   void add_counts(SilhouetteCounts& out) const {
@@ -88,14 +90,16 @@ class Evaluation {
   void part(std::span<TileReceiver> receivers, Workspace& w) const;
   void leave(std::span<TileReceiver> receivers, int pass, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
-  /// In the light's plane and light radii: how far silhouettes of merged faces in a list of blocks are moved
-  /// at most for any of the receivers. In light radii: how far they might be moved (`MergedEdge::deviation`).
-  struct Moves {
-    double most = 0.0, allowed = std::numeric_limits<double>::infinity();
+  /// Of the merged edges in a list of blocks, for the receivers of a shaft.
+  struct Deviations {
+    /// How far silhouettes lie off the true ones at most, in the light's plane, light radii.
+    double most = 0.0;
+    /// How large MergedEdge::deviation may be so that `most` is within the tolerance, light radii.
+    double allowed = std::numeric_limits<double>::infinity();
   };
-  Moves moves(const Shaft& shaft, const std::vector<NodeMask>& list) const;
+  Deviations deviations(const Shaft& shaft, const std::vector<NodeMask>& list) const;
   void look_around(const Shaft& shaft, Workspace& w) const;
-  bool is_beyond_doubt(std::size_t i, const DiskPart& part, Workspace& w) const;
+  bool is_certain(std::size_t i, const DiskPart& part, Workspace& w) const;
   bool are_blocks_better(Workspace& w) const;
   void divide(std::size_t first, std::size_t last, Workspace& w) const;
   void divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const;

@@ -86,6 +86,9 @@ struct Truth {
 /// accuracy_bench.cpp: the frame of every method and its error against the silhouette method, on the floor and on the casters.
 void bench_accuracy(Record& record, const SceneNames& scenes);
 
+/// judge_bench.cpp: methods against rays in double without offset (tests/oracle).
+void bench_judge(Record& record, const SceneNames& scenes);
+
 /// d_buffer_bench.cpp: the D-buffer against rays of the same error; its cost by its size, by faces and by the light's radius.
 void bench_d_buffer(Record& record, const SceneNames& scenes);
 

@@ -19,6 +19,7 @@ endif()
 
 # One test for each document that has a command to run.
 if(TARGET penumbra_cli)
+  docs_test(options options.py $<TARGET_FILE:penumbra_cli>)
   execute_process(COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/docs/commands.py --list
                   OUTPUT_VARIABLE documents OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" documents ${documents})

@@ -122,6 +122,14 @@ def silhouette_errors(part):
     return markdown(["scene", "RMSE", "95% interval", "certified of lit", "certified of umbra"], rows)
 
 
+def judged(part):
+    methods = ("silhouette", "reference", "dbuffer")
+    rows = [[scene, number(part.median(f"{scene}/pixels in penumbra"))]
+            + [error(part.median(f"{scene}/{method}")) for method in methods]
+            for scene in scenes_of(part, "/pixels in penumbra")]
+    return markdown(["scene", "pixels judged", "`silhouette`", "`reference`, 4,096 rays", "`dbuffer`"], rows)
+
+
 def silhouette_times(part):
     rows = [[scene, number(part.median(f"{scene}/silhouette")),
              number(part.median(f"{scene}/reference : silhouette")), number(part.median(f"{scene}/rays : silhouette")),
@@ -247,6 +255,7 @@ TABLES = {
     "dbuffer-error": lambda: first_machine("accuracy", DBUFFER_ERRORS),
     "occlusion-error": lambda: first_machine("accuracy", OCCLUSION_ERRORS),
     "silhouette-error": lambda: first_machine("silhouette", silhouette_errors),
+    "judge": lambda: first_machine("judge", judged),
     "frames": lambda: each_machine("accuracy", frames),
     "silhouette-time": lambda: each_machine("silhouette", silhouette_times),
     "growth": lambda: each_machine("growth", growth),

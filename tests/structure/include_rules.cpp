@@ -38,7 +38,7 @@ const std::vector<Rule>& rules() {
        {"volumes/cells/hull.cpp", "render/rays/ray_scene.h"}},
       {"render stands below apps", "render/", kNever, "(apps|tests)/",
        {"render/image/png.cpp", "apps/common/picture.h"}},
-      {"programs do not need tests", "apps/", kNever, "tests/",
+      {"programs need no tests but the oracle", "apps/", kNever, "tests/(?!oracle/)",
        {"apps/cli/main.cpp", "tests/render/visibility_support.h"}},
       {"checks are for programs only", "(volumes/checks|apps|tests)/", kAlone, "volumes/checks/",
        {"volumes/convex_umbra.cpp", "penumbra/volumes/checks/validate.h"}},
