@@ -284,7 +284,7 @@ std::optional<Command> Panel::draw(State& state, const PanelInput& input) {
   ImGui::Begin("panel", nullptr,
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
-  ImGui::PushItemWidth(180.0f);
+  ImGui::PushItemWidth(158.0f);
   std::size_t faces = 0;
   for (const SceneObject& object : state.model->objects) faces += object.mesh.triangles().size();
   ImGui::Text("%s: %zu faces", state.path.filename().c_str(), faces);
