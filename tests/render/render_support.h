@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "penumbra/mesh/shapes.h"
-#include "penumbra/render/image/error_figures.h"
 #include "penumbra/render/scene/scene.h"
 #include "penumbra/render/support/counts.h"
 #include "render/light/disk_area.h"

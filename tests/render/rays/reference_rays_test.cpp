@@ -58,12 +58,11 @@ TEST(Reference, NeverRisesWhenACasterIsAdded) {
   scene.camera = {{6, 7, 8}, {0, 1.5, 0}, {0, 1, 0}, 45};
   scene.objects.push_back({"floor", make_plane(6.0, 2), Vec3(0.8), false});
   Random random(31);
-  for (int k = 0; k < 8; ++k)
-    scene.objects.push_back(
-        {"box",
-         make_box({random.uniform(-2, 2), random.uniform(1, 4), random.uniform(-2, 2)},
-                  {random.uniform(0.1, 0.6), random.uniform(0.1, 0.6), random.uniform(0.1, 0.6)}),
-         Vec3(0.8), true});
+  for (int k = 0; k < 8; ++k) {  // one after the other: the order of arguments is a compiler's own
+    const Vec3 half{random.uniform(0.1, 0.6), random.uniform(0.1, 0.6), random.uniform(0.1, 0.6)};
+    const Vec3 center{random.uniform(-2, 2), random.uniform(1, 4), random.uniform(-2, 2)};
+    scene.objects.push_back({"box", make_box(center, half), Vec3(0.8), true});
+  }
   Scene more = scene;
   more.objects.push_back({"added", make_icosphere({0.5, 2.2, 0.4}, 0.5, 2), Vec3(0.8), true});
   ASSERT_EQ(ray_frame(scene).scale, ray_frame(more).scale);

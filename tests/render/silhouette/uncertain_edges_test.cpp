@@ -29,7 +29,7 @@ TEST(UncertainEdges, CertificatesHoldToTheLast) {
     const MergedEdges merged = merged_edges_of(scene);
     for (const MergedLevel& level : merged.levels()) {
       const Band band = make_merged_band(lit, merged, level);
-      const auto receiver_at = [&](const Vec3& world) {
+      const auto receiver_at = [&light = stage.light](const Vec3& world) {
         TileReceiver r;
         r.x = light.point(world), r.normal = Vec3(0, 0, -1), r.horizon = no_horizon();
         return r;
