@@ -7,6 +7,7 @@
 #include "render/gl/context_options.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_scene.h"
+#include "render/word_option.h"
 
 namespace penumbra {
 namespace {
@@ -102,13 +103,6 @@ class DBufferMethod : public Method {
 
 std::vector<OptionSchema> d_buffer_options() {
   const DBufferOptions usual;
-  const auto words = [](const char* name, auto names, auto value, const char* help) {
-    return OptionSchema{.name = name,
-                        .domain = WordChoice{words_of(names)},
-                        .usual = std::string(name_in(names, value)),
-                        .unit = {},
-                        .help = help};
-  };
   return {
       {.name = "dbuffer-size",
        .domain = IntegerRange{16, 8192, {0}},
@@ -116,21 +110,24 @@ std::vector<OptionSchema> d_buffer_options() {
        .unit = "texels",
        .help = "Texels a side of the D-buffer; 0: the root of the picture's pixels",
        .draft = std::uint64_t{256}},
-      words("dbuffer", d_buffer_contents(), usual.contents,
-            "What a texel keeps: the edge that bounds the penumbra, or the 2004 paper's distances"),
+      word_option("dbuffer", d_buffer_contents(), usual.contents,
+                  "What a texel keeps: the edge that bounds the penumbra, or the 2004 paper's distances"),
       {.name = "dbuffer-entries",
        .domain = IntegerRange{1, 2},
        .usual = static_cast<std::uint64_t>(usual.entries),
        .unit = {},
        .help = "Entries a texel keeps; two need dbuffer edge and conflict nearest"},
-      words("visibility", visibility_curves(), usual.curve,
-            "Area beyond a chord: exact (of an edge: along the boundary that it is part of), smoothstep "
-            "3t²-2t³, or sqrt √t"),
-      words("conflict", conflicts(), usual.conflict, "Which of several entries on a line of sight is kept"),
-      words("dbuffer-center", center_tests(), usual.center,
-            "How it is told whether the light's center is hidden: by a ray, or by the texel's first surface"),
-      words("dbuffer-check", entry_checks(), usual.check,
-            "Whether rays are traced where entries contradict each other; with edge, exact and ray"),
+      word_option(
+          "visibility", visibility_curves(), usual.curve,
+          "Area beyond a chord: exact (of an edge: along the boundary that it is part of), smoothstep "
+          "3t²-2t³, or sqrt √t"),
+      word_option("conflict", conflicts(), usual.conflict,
+                  "Which of several entries on a line of sight is kept"),
+      word_option(
+          "dbuffer-center", center_tests(), usual.center,
+          "How it is told whether the light's center is hidden: by a ray, or by the texel's first surface"),
+      word_option("dbuffer-check", entry_checks(), usual.check,
+                  "Whether rays are traced where entries contradict each other; with edge, exact and ray"),
       gl::backend_option()};
 }
 

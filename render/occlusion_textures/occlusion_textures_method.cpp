@@ -8,6 +8,7 @@
 #include "render/occlusion_textures/occlusion_textures.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_scene.h"
+#include "render/word_option.h"
 
 namespace penumbra {
 namespace {
@@ -95,13 +96,6 @@ class OcclusionTexturesMethod : public Method {
 
 std::vector<OptionSchema> occlusion_options() {
   const OcclusionOptions usual;
-  const auto words = [](const char* name, auto names, auto value, const char* help) {
-    return OptionSchema{.name = name,
-                        .domain = WordChoice{words_of(names)},
-                        .usual = std::string(name_in(names, value)),
-                        .unit = {},
-                        .help = help};
-  };
   return {
       {.name = "slices",
        .domain = IntegerChoice{{4, 8, 12, 16}},
@@ -113,18 +107,19 @@ std::vector<OptionSchema> occlusion_options() {
        .usual = static_cast<std::uint64_t>(usual.texture_size),
        .unit = "texels",
        .help = "Texels a side of each slice"},
-      words("filter", occlusion_filters(), usual.filter, "How a slice is averaged over the light"),
-      words("combine", occlusion_combines(), usual.combine, "How slices add up"),
-      words("kernel", occlusion_kernels(), usual.kernel,
-            "A disk light as one square of equal area or as strips"),
-      words("thin-fix", thin_fixes(), usual.thin_fix,
-            "Draw each slice into the next one too; auto: for open and thin objects"),
-      words("slice-range", slice_ranges(), usual.range,
-            "Depths that are sliced: of all or of casters; auto: of casters where they nearly touch a "
-            "receiver"),
-      words("coverage", slice_coverages(), usual.coverage, "Texels by their centers or by eight samples"),
-      words("slice-faces", slice_faces(), usual.faces,
-            "Which faces of closed casters are drawn: all, or what faces the light"),
+      word_option("filter", occlusion_filters(), usual.filter, "How a slice is averaged over the light"),
+      word_option("combine", occlusion_combines(), usual.combine, "How slices add up"),
+      word_option("kernel", occlusion_kernels(), usual.kernel,
+                  "A disk light as one square of equal area or as strips"),
+      word_option("thin-fix", thin_fixes(), usual.thin_fix,
+                  "Draw each slice into the next one too; auto: for open and thin objects"),
+      word_option("slice-range", slice_ranges(), usual.range,
+                  "Depths that are sliced: of all or of casters; auto: of casters where they nearly touch a "
+                  "receiver"),
+      word_option("coverage", slice_coverages(), usual.coverage,
+                  "Texels by their centers or by eight samples"),
+      word_option("slice-faces", slice_faces(), usual.faces,
+                  "Which faces of closed casters are drawn: all, or what faces the light"),
       {.name = "cop-offset",
        .domain = RealRange{0.0, kInfinity, false, {"auto", "orthographic"}},
        .usual = std::string("auto"),
