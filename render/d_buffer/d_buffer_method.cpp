@@ -1,10 +1,8 @@
 #include "render/d_buffer/d_buffer_method.h"
 
-#include <algorithm>
-#include <list>
-
 #include "render/d_buffer/d_buffer.h"
 #include "render/gl/context_options.h"
+#include "render/gl/kept_by_frame.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_scene.h"
 #include "render/word_option.h"
@@ -24,18 +22,17 @@ DBufferOptions options_of(const OptionValues& values) {
 
 class DBufferMethod : public Method {
  public:
-  explicit DBufferMethod(const Scene& objects) : scene_(objects) {}
+  explicit DBufferMethod(const Scene& objects) : kept_(objects) {}
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
     StageClock clock;
-    Kept& kept = kept_for(input);
+    WithReceivers& kept = kept_.for_input(input);
     MethodResult out;
     clock.finish("d_buffer");
     out.setup = clock.stages();
     StageClock stages;
-    if (input.receivers.revision == 0 || kept.revision != input.receivers.revision)
-      set_surface(kept, input.receivers);
+    kept.set(input.receivers);
     stages.finish("upload_surface");
     report(input.progress, 0.0);
     DBufferFrame frame = kept.buffer.render(require_disk(input.light, "method dbuffer"),
@@ -44,59 +41,36 @@ class DBufferMethod : public Method {
     out.stages = stages.stages();
     out.stages.insert(out.stages.end(), frame.stages.begin(), frame.stages.end());
     out.counts = std::move(frame.counts);
-    out.renderer = context_->renderer();
+    out.renderer = kept_.renderer();
     if (input.keep_textures) out.textures = kept.buffer.textures();
     return out;
   }
 
   void forget() override {
-    for (Kept& kept : kept_) {
-      kept.revision = 0;
-      kept.buffer.forget_light();
-    }
+    kept_.for_each([](WithReceivers& each) {
+      each.revision = 0;
+      each.buffer.forget_light();
+    });
   }
 
  private:
-  /// The D-buffer that works with the rays of one light's frame, and the receivers that it has.
-  struct Kept {
-    Kept(gl::Context& context, const Scene& scene, const RayScene& rays_)
-        : rays(&rays_), frame(rays_.frame()), buffer(context, scene, rays_) {}
+  /// A D-buffer, and which receivers it has.
+  struct WithReceivers {
+    WithReceivers(gl::Context& context, const Scene& scene, const RayScene& rays)
+        : buffer(context, scene, rays) {}
 
-    const RayScene* rays;
-    RayFrame frame;
+    void set(const Receivers& receivers) {
+      if (receivers.revision != 0 && receivers.revision == revision) return;
+      revision = 0;  // should it fail half way
+      buffer.set_surface(receivers);
+      revision = receivers.revision;
+    }
+
     DBuffer buffer;
     std::uint64_t revision = 0;
   };
 
-  static void set_surface(Kept& kept, const Receivers& receivers) {
-    kept.revision = 0;  // should it fail half way
-    kept.buffer.set_surface(receivers);
-    kept.revision = receivers.revision;
-  }
-
-  Kept& kept_for(const MethodInput& input) {
-    const gl::Backend backend = gl::backend_of(word_of(input.options, "backend"));
-    if (!context_ || backend_ != backend) {
-      kept_.clear();
-      context_ = gl::make_context(backend);
-      backend_ = backend;
-    }
-    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-      return kept.rays == &input.rays && kept.frame == input.rays.frame();
-    });
-    if (known != kept_.end()) {
-      kept_.splice(kept_.begin(), kept_, known);
-    } else {
-      kept_.emplace_front(*context_, scene_, input.rays);
-      if (kept_.size() > input.kept_frames) kept_.pop_back();
-    }
-    return kept_.front();
-  }
-
-  const Scene& scene_;
-  std::unique_ptr<gl::Context> context_;
-  gl::Backend backend_{};
-  std::list<Kept> kept_;  ///< the last used first
+  gl::KeptByFrame<WithReceivers> kept_;
 };
 
 }  // namespace

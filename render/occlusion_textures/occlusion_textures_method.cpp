@@ -1,10 +1,9 @@
 #include "render/occlusion_textures/occlusion_textures_method.h"
 
-#include <algorithm>
 #include <limits>
-#include <list>
 
 #include "render/gl/context_options.h"
+#include "render/gl/kept_by_frame.h"
 #include "render/occlusion_textures/occlusion_textures.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_scene.h"
@@ -37,13 +36,13 @@ OcclusionOptions options_of(const OptionValues& values) {
 
 class OcclusionTexturesMethod : public Method {
  public:
-  explicit OcclusionTexturesMethod(const Scene& objects) : scene_(objects) {}
+  explicit OcclusionTexturesMethod(const Scene& objects) : kept_(objects) {}
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
     StageClock clock;
     MethodResult out;
-    OcclusionTextures& textures = textures_for(input);
+    OcclusionTextures& textures = kept_.for_input(input);
     clock.finish("occlusion_textures");
     out.setup = clock.stages();
     OcclusionFrame frame =
@@ -51,45 +50,13 @@ class OcclusionTexturesMethod : public Method {
     out.visibility = std::move(frame.visibility);
     out.stages = std::move(frame.stages);
     out.counts = std::move(frame.counts);
-    out.renderer = context_->renderer();
+    out.renderer = kept_.renderer();
     if (input.keep_textures) out.textures = std::move(frame.textures);
     return out;
   }
 
  private:
-  /// The textures that work in the frame of one light's rays.
-  struct Kept {
-    Kept(gl::Context& context, const Scene& scene, const RayScene& rays_)
-        : rays(&rays_), frame(rays_.frame()), textures(context, scene, rays_) {}
-
-    const RayScene* rays;
-    RayFrame frame;
-    OcclusionTextures textures;
-  };
-
-  OcclusionTextures& textures_for(const MethodInput& input) {
-    const gl::Backend backend = gl::backend_of(word_of(input.options, "backend"));
-    if (!context_ || backend_ != backend) {
-      kept_.clear();
-      context_ = gl::make_context(backend);
-      backend_ = backend;
-    }
-    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
-      return kept.rays == &input.rays && kept.frame == input.rays.frame();
-    });
-    if (known != kept_.end()) {
-      kept_.splice(kept_.begin(), kept_, known);
-    } else {
-      kept_.emplace_front(*context_, scene_, input.rays);
-      if (kept_.size() > input.kept_frames) kept_.pop_back();
-    }
-    return kept_.front().textures;
-  }
-
-  const Scene& scene_;
-  std::unique_ptr<gl::Context> context_;
-  gl::Backend backend_{};
-  std::list<Kept> kept_;  ///< the last used first
+  gl::KeptByFrame<OcclusionTextures> kept_;
 };
 
 }  // namespace
