@@ -72,12 +72,19 @@ const MethodInfo& method_named(std::string_view name) {
   throw UsageError("unknown method '" + std::string(name) + "': use one of " + known);
 }
 
-void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers,
-                   bool with_unoccluded) {
+void require_taken(const MethodInfo& method, const LightShape& light) {
   const std::string who = "method " + method.name;
-  if (!method.takes_rectangles) require_disk(light, who);
+  if (!method.takes_distant && std::holds_alternative<DistantLight>(light))
+    throw UsageError(who + " does not take distant lights");
+  if (!method.takes_rectangles) require_circular(light, who);
   if (!method.takes_disks && std::holds_alternative<DiskLight>(light))
     throw UsageError(who + " does not take disk lights");
+}
+
+void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers,
+                   bool with_unoccluded) {
+  require_taken(method, light);
+  const std::string who = "method " + method.name;
   if (with_unoccluded && !method.gives_unoccluded && receivers.has_normals())
     throw UsageError(who + " does not give the unoccluded fraction; leave the normals out, or use method " +
                      kDefaultMethod);

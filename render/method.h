@@ -83,7 +83,7 @@ struct MethodInfo {
   std::string summary;
   /// The lights that it takes. A point light is a disk of radius 0; all methods but `none` then give the hard
   /// shadow.
-  bool takes_disks = true, takes_rectangles = false;
+  bool takes_disks = true, takes_rectangles = false, takes_distant = false;
   /// Receivers must be a picture's pixels, with normals, objects and faces.
   bool needs_pixels = false;
   bool needs_opengl = false;
@@ -113,6 +113,9 @@ const MethodInfo& method_named(std::string_view name);
 
 /// The method that is used where nothing else is asked for.
 inline constexpr const char* kDefaultMethod = "silhouette";
+
+/// Throws UsageError that names the method where it does not take this light.
+void require_taken(const MethodInfo& method, const LightShape& light);
 
 /// Throws UsageError that names the method where it does not take this light, these receivers, or a request for O.
 void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers,

@@ -142,7 +142,7 @@ RenderResult Renderer::render(const RenderOptions& options) {
   const std::vector<Light>& lights = state_->scene.lights;
   for (const Light& light : lights) {
     require_valid(light.shape);
-    if (!info.takes_rectangles) require_disk(light.shape, "method " + info.name);
+    require_taken(info, light.shape);
   }
   state_->rays(0, options);
   clock.restart();  // one-time set-up, not a stage

@@ -2,10 +2,17 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "mesh/vectors.h"
 
 namespace penumbra {
+
+CircularLight::CircularLight(const DistantLight& light)
+    : center(-light.direction),
+      weight(0.0),
+      normal(light.direction),
+      radius(std::tan(0.5 * glm::radians(light.angle_degrees))) {}
 
 LightFrame light_frame(const DiskLight& light) {
   const Vec3 w = detail::unit(light.normal);

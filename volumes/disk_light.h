@@ -1,4 +1,4 @@
-// The light: a flat disk that emits on the side of its normal.
+// Circular lights: a flat disk that emits on the side of its normal, or one that is infinitely far away, the sun.
 #pragma once
 
 #include "penumbra/mesh/types.h"
@@ -17,6 +17,38 @@ struct DiskLight {
   double radius = 0.0;
 
   bool operator==(const DiskLight&) const = default;
+};
+
+/// A disk at infinity, such as the sun: the limit of a disk of radius D·tan(angle/2) at distance D that faces the
+/// scene. Everything is in front of it.
+struct DistantLight {
+  /// In which it shines. Of any length but 0: predicates use it as given.
+  Vec3 direction{0.0, -1.0, 0.0};
+  /// The angle that the whole disk fills, degrees, at least 0 and below 180.
+  double angle_degrees = 0.53;
+
+  bool operator==(const DistantLight&) const = default;
+};
+
+/// A circular light at any distance, in homogeneous coordinates: what predicates and volumes work with. The point
+/// (center, weight) is the disk's center where weight is 1, and a direction where it is 0.
+struct CircularLight {
+  /// The disk's center; of a distant light the direction from the scene towards it, -direction.
+  Vec3 center;
+  /// 1, or 0 for a distant light.
+  double weight;
+  /// Where it shines to, of any length but 0.
+  Vec3 normal;
+  /// Scene units; of a distant light tan(angle/2), the radius at unit distance.
+  double radius;
+
+  // Implicit: wherever a circular light is wanted either kind will do.
+  CircularLight(const DiskLight& light)  // NOLINT(google-explicit-constructor)
+      : center(light.center), weight(1.0), normal(light.normal), radius(light.radius) {}
+  CircularLight(const DistantLight& light);  // NOLINT(google-explicit-constructor)
+
+  bool is_distant() const { return weight == 0.0; }
+  bool operator==(const CircularLight&) const = default;
 };
 
 /// An orthonormal frame of directions: w along the light's normal, and u × v = w. The same normal always

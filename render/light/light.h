@@ -1,4 +1,4 @@
-// Lights: a disk or a rectangle, each with a name and a radiance.
+// Lights: a disk, near or distant, or a rectangle, each with a name and a radiance.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -25,29 +25,33 @@ struct RectangleLight {
   bool operator==(const RectangleLight&) const = default;
 };
 
-using LightShape = std::variant<DiskLight, RectangleLight>;
+using LightShape = std::variant<DiskLight, RectangleLight, DistantLight>;
 
 struct Light {
   /// Of letters, digits, '-' and '_'; unlike that of any other light of a scene. May be empty where a scene
   /// has one light.
   std::string name{};
   LightShape shape{};
-  /// Linear RGB, W/(m² sr) if a scene unit is a meter. Of a disk of radius 0: its intensity, W/sr.
+  /// Linear RGB, W/(m² sr) if a scene unit is a meter. Of a disk of radius 0: its intensity, W/sr; of a distant
+  /// light of angle 0: the irradiance of a surface that faces it, W/m².
   Vec3 radiance{10.0};
 
   bool operator==(const Light&) const = default;
 };
 
-/// The smallest disk that holds the light; the disk itself where the light is one.
+/// The smallest disk that holds the light; the disk itself where the light is one. Not for distant lights.
 DiskLight disk_around(const LightShape& shape);
 
-/// True where the light is a disk of radius 0.
+/// True where the light is a disk of radius 0, or a distant light of angle 0.
 bool is_point(const LightShape& shape);
 
-/// "disk" or "rectangle".
+/// "disk", "rectangle" or "distant".
 const char* name_of(const LightShape& shape);
 
 /// The disk. Throws UsageError that begins with `who` where the light is no disk.
 const DiskLight& require_disk(const LightShape& shape, const std::string& who);
+
+/// The disk, near or distant. Throws UsageError that begins with `who` where the light is a rectangle.
+CircularLight require_circular(const LightShape& shape, const std::string& who);
 
 }  // namespace penumbra

@@ -39,6 +39,11 @@ void require_valid(const LightShape& shape) {
                 glm::length(glm::cross(detail::unit(rectangle->tangent), detail::unit(rectangle->normal))) >=
                     kParallel,
             "tangent is 0 or parallel to its normal; give the direction of one side");
+  } else if (const auto* distant = std::get_if<DistantLight>(&shape)) {
+    require(is_finite(distant->direction), "direction is not finite");
+    require(distant->direction != Vec3(0.0), "direction has length 0; give the direction in which it shines");
+    require(distant->angle_degrees >= 0.0 && distant->angle_degrees < 180.0,
+            "angle is not a number of degrees from 0 to below 180");
   } else {
     require_valid_disk(std::get<DiskLight>(shape));
   }
