@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <glm/trigonometric.hpp>
+#include <numbers>
 
 #include "penumbra/mesh/error.h"
 
@@ -19,6 +21,12 @@ DiskLight disk_around(const LightShape& shape) {
   if (const auto* disk = std::get_if<DiskLight>(&shape)) return *disk;
   const auto& rectangle = std::get<RectangleLight>(shape);
   return {rectangle.center, rectangle.normal, std::hypot(rectangle.half_extents.x, rectangle.half_extents.y)};
+}
+
+double irradiance_per_radiance(const DistantLight& light) {
+  if (light.angle_degrees == 0.0) return 1.0;
+  const double sine = std::sin(0.5 * glm::radians(light.angle_degrees));
+  return std::numbers::pi * sine * sine;
 }
 
 bool is_point(const LightShape& shape) {

@@ -42,6 +42,10 @@ struct Light {
 /// The smallest disk that holds the light; the disk itself where the light is one. Not for distant lights.
 DiskLight disk_around(const LightShape& shape);
 
+/// The irradiance of a surface that faces the light and sees all of it, for a radiance of 1: π sin²(angle/2), the
+/// solid angle of the disk weighted by the cosine. 1 at angle 0, where `radiance` is that irradiance.
+double irradiance_per_radiance(const DistantLight& light);
+
 /// True where the light is a disk of radius 0, or a distant light of angle 0.
 bool is_point(const LightShape& shape);
 

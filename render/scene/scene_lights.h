@@ -1,4 +1,4 @@
-// The lights of a scene file: {"shape": "disk" | "rectangle", ...} and their names.
+// The lights of a scene file: {"shape": "disk" | "rectangle" | "distant", ...} and their names.
 #pragma once
 
 #include <vector>

@@ -10,8 +10,8 @@
 #include <fstream>
 
 #include "penumbra/mesh/error.h"
-#include "penumbra/render/light/light.h"
 #include "penumbra/render/scene/scene.h"
+#include "render/light/area_light.h"
 
 namespace {
 
@@ -36,8 +36,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const penumbra::LoadedScene loaded = penumbra::load_scene(file);
     if (loaded.scene.lights.empty()) std::abort();
-    for (const penumbra::Light& light : loaded.scene.lights)
-      if (!(penumbra::disk_around(light.shape).radius >= 0.0)) std::abort();
+    for (const penumbra::Light& light : loaded.scene.lights) {
+      const penumbra::AreaLight area = penumbra::area_light(light.shape);
+      if (!(area.half.x >= 0.0 && area.half.y >= 0.0 && light.radiance.x >= 0.0)) std::abort();
+    }
   } catch (const penumbra::SceneError&) {
   } catch (const penumbra::MeshError&) {
   }

@@ -83,7 +83,16 @@ nlohmann::json floor_entry(const std::filesystem::path& path, const SceneObject&
   return {{"mesh", name}, {"albedo", to_json(floor.albedo)}, {"casts", floor.casts}};
 }
 
+void write_distant(const Light& light, const DistantLight& distant, nlohmann::json& json) {
+  json["direction"] = to_json(distant.direction);
+  json["angle_degrees"] = distant.angle_degrees;
+  json["irradiance"] = to_json(light.radiance * irradiance_per_radiance(distant));
+  json.erase("radiance");
+}
+
 void write_light(const Light& light, nlohmann::json& json) {
+  if (const auto* distant = std::get_if<DistantLight>(&light.shape))
+    return write_distant(light, *distant, json);
   const DiskLight disk = disk_around(light.shape);
   json["center"] = to_json(disk.center);
   json["normal"] = to_json(disk.normal);
@@ -106,7 +115,9 @@ nlohmann::json scene_document(const std::filesystem::path& path, const State& st
     document["objects"].insert(document["objects"].begin(), floor_entry(path, state.model->objects.front()));
     document.erase("x-made-for");
   }
-  for (std::size_t i = 0; i < state.lights.size(); ++i) write_light(state.lights[i], document["lights"][i]);
+  // A light that was left alone keeps its numbers as they were written.
+  for (std::size_t i = 0; i < state.lights.size(); ++i)
+    if (!(state.lights[i] == state.model->lights[i])) write_light(state.lights[i], document["lights"][i]);
   document["camera"] = {{"eye", to_json(state.camera.eye)},
                         {"target", to_json(state.camera.target)},
                         {"up", to_json(state.camera.up)},
