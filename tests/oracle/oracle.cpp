@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "tests/oracle/signs.h"
 
@@ -13,31 +12,6 @@ namespace {
 
 constexpr double kUnit = 0x1p-53;
 constexpr std::size_t kLeafTriangles = 4;
-
-// splitmix64 (Steele, Lea, Flood 2014): one seed, one number in [0, 1).
-double unit_number(std::uint64_t seed) {
-  std::uint64_t z = seed + 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-struct Plane {
-  Vec3 u, v;
-};
-Plane directions_across(const Vec3& normal) {
-  const double scale = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
-  assert(scale > 0.0);
-  const Vec3 m = glm::normalize(Vec3(normal.x / scale, normal.y / scale, normal.z / scale));
-  // The axis of the least |m_i| is at least 54 degrees off m.
-  int least = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(m[i]) < std::abs(m[least])) least = i;
-  Vec3 axis(0.0);
-  axis[least] = 1.0;
-  const Vec3 u = glm::normalize(glm::cross(m, axis));
-  return {u, glm::cross(m, u)};
-}
 
 bool blocks(const Ray& ray, const Corners& face) {
   const int first = side_of_edge(ray, face.a, face.b);
@@ -55,8 +29,24 @@ bool is_own(std::span<const CasterFace> own, const CasterFace& face) {
   return std::ranges::find(own, face) != own.end();
 }
 
+/// The plane at which rays end, if there is one.
+struct Emitter {
+  Vec3 center, normal;
+  bool distant;
+};
+Emitter emitter_of(const Light& light) {
+  if (std::holds_alternative<DistantLight>(light)) return {Vec3(0.0), Vec3(0.0), true};
+  if (const auto* disk = std::get_if<DiskLight>(&light)) return {disk->center, disk->normal, false};
+  const auto& rectangle = std::get<Rectangle>(light);
+  return {rectangle.center, glm::cross(rectangle.u, rectangle.v), false};
+}
+Ray ray_to(const Vec3& x, const Vec3& q, const Emitter& emitter) {
+  return {x, q, emitter.center, emitter.normal, emitter.distant};
+}
+
 // Upper bound of the parameter at which the ray meets the light's plane; it is 1 but for the rounding of q.
 double longest(const Ray& ray) {
+  if (ray.endless) return std::numeric_limits<double>::infinity();
   Bounded toward, until;
   for (int i = 0; i < 3; ++i) {
     const Bounded m{ray.normal[i], 0.0};
@@ -69,15 +59,15 @@ double longest(const Ray& ray) {
 }
 
 // Slab test (Kay, Kajiya 1986) that never misses a box that the ray meets. A parameter is a quotient of two differences:
-// three roundings. Both ends of an interval are moved outward by 4u of their size, and by what underflow can cost.
-bool meets(const Ray& ray, const Vec3& direction, double end, const Bounds& box) {
+// three roundings, or two where the direction is exact. Both ends of an interval are moved outward by 4u of their size, and by what underflow can cost.
+bool meets(const Vec3& start, const Vec3& direction, double end, const Bounds& box) {
   double near = 0.0, far = end;
   for (int i = 0; i < 3; ++i) {
     if (direction[i] == 0.0) {
-      if (ray.x[i] < box.low[i] || ray.x[i] > box.high[i]) return false;
+      if (start[i] < box.low[i] || start[i] > box.high[i]) return false;
       continue;
     }
-    double enter = (box.low[i] - ray.x[i]) / direction[i], leave = (box.high[i] - ray.x[i]) / direction[i];
+    double enter = (box.low[i] - start[i]) / direction[i], leave = (box.high[i] - start[i]) / direction[i];
     if (enter > leave) std::swap(enter, leave);
     near = std::max(near, enter - (4 * kUnit * std::abs(enter) + 0x1p-1000));
     far = std::min(far, leave + (4 * kUnit * std::abs(leave) + 0x1p-1000));
@@ -86,21 +76,6 @@ bool meets(const Ray& ray, const Vec3& direction, double end, const Bounds& box)
 }
 
 }  // namespace
-
-std::vector<Vec3> light_samples(const DiskLight& light, int samples, std::uint64_t seed) {
-  assert(samples >= 1);
-  const Plane across = directions_across(light.normal);
-  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
-  const double start = 2.0 * std::numbers::pi * unit_number(seed);
-  std::vector<Vec3> out;
-  out.reserve(static_cast<std::size_t>(samples));
-  for (int k = 0; k < samples; ++k) {
-    const double radius = light.radius * std::sqrt((k + 0.5) / samples), angle = k * turn + start;
-    out.push_back(light.center + (radius * std::cos(angle)) * across.u +
-                  (radius * std::sin(angle)) * across.v);
-  }
-  return out;
-}
 
 Oracle::Oracle(std::span<const TriangleMesh> casters) {
   for (std::size_t object = 0; object < casters.size(); ++object) {
@@ -136,56 +111,96 @@ void Oracle::build(std::size_t begin, std::size_t end) {
   build(middle, end);
 }
 
-bool Oracle::blocked(const Vec3& x, const Vec3& q, std::span<const CasterFace> own,
-                     const DiskLight& light) const {
-  if (nodes_.empty()) return false;
-  const Ray ray{x, q, light.center, light.normal};
-  const Vec3 direction = q - x;
-  const double end = longest(ray);
+template <class Visit>
+void Oracle::walk(const Vec3& start, const Vec3& direction, double& end, const Visit& visit) const {
+  if (nodes_.empty()) return;
   std::uint32_t stack[64], size = 0;  // the depth is log2 F
   stack[size++] = 0;
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
-    if (!meets(ray, direction, end, node.bounds)) continue;
+    if (!meets(start, direction, end, node.bounds)) continue;
     if (node.count == 0) {
       stack[size++] = node.first;
       stack[size++] = at + 1;
     }
     for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
-      if (!is_own(own, triangles_[t].id) && blocks(ray, {triangles_[t].a, triangles_[t].b, triangles_[t].c}))
-        return true;
+      if (!visit(triangles_[t])) return;
   }
-  return false;
+}
+
+bool Oracle::blocked(const Vec3& x, const Vec3& q, std::span<const CasterFace> own,
+                     const Light& light) const {
+  const Ray ray = ray_to(x, q, emitter_of(light));
+  return blocker(ray, own, nullptr) != nullptr;
+}
+
+const Oracle::Triangle* Oracle::blocker(const Ray& ray, std::span<const CasterFace> own,
+                                        const Triangle* likely) const {
+  const auto is_blocker = [&](const Triangle& t) {
+    return !is_own(own, t.id) && blocks(ray, {t.a, t.b, t.c});
+  };
+  if (likely && is_blocker(*likely)) return likely;
+  double end = longest(ray);
+  const Triangle* found = nullptr;
+  walk(ray.x, ray.endless ? ray.q : ray.q - ray.x, end, [&](const Triangle& t) {
+    if (is_blocker(t)) found = &t;
+    return found == nullptr;
+  });
+  return found;
 }
 
 bool Oracle::blocked_by_any(const Vec3& x, const Vec3& q, std::span<const CasterFace> own,
-                            const DiskLight& light) const {
-  const Ray ray{x, q, light.center, light.normal};
+                            const Light& light) const {
+  const Ray ray = ray_to(x, q, emitter_of(light));
   return std::ranges::any_of(triangles_, [&](const Triangle& t) {
     return !is_own(own, t.id) && blocks(ray, {t.a, t.b, t.c});
   });
 }
 
+std::optional<Hit> Oracle::first_hit(const Vec3& start, const Vec3& direction) const {
+  const Ray ray{start, direction, Vec3(0.0), Vec3(0.0), true};
+  std::optional<Hit> first;
+  double end = std::numeric_limits<double>::infinity();
+  walk(start, direction, end, [&](const Triangle& t) {
+    if (!blocks(ray, {t.a, t.b, t.c})) return true;
+    const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);
+    const double distance = glm::dot(t.a - start, normal) / glm::dot(direction, normal);
+    if (!first || distance < first->distance) first = {t.id, distance};
+    end = first->distance * (1 + 64 * kUnit);
+    return true;
+  });
+  return first;
+}
+
 template <class Accept>
-double Oracle::share(const Vec3& x, std::span<const CasterFace> own, const DiskLight& light, int samples,
+double Oracle::share(const Vec3& x, std::span<const CasterFace> own, const Light& light, int samples,
                      std::uint64_t seed, const Accept& accept) const {
-  if (sign_of_dot(light.normal, x, light.center) <= 0) return 0.0;
+  const Emitter emitter = emitter_of(light);
+  if (!emitter.distant && sign_of_dot(emitter.normal, x, emitter.center) <= 0) return 0.0;
   int seen = 0;
-  for (const Vec3& q : light_samples(light, samples, seed))
-    if (accept(q) && !blocked(x, q, own, light)) ++seen;
+  const Triangle* last = nullptr;
+  for (const Vec3& q : light_samples(light, samples, seed)) {
+    if (!accept(q)) continue;
+    const Triangle* found = blocker(ray_to(x, q, emitter), own, last);
+    if (found) last = found;
+    seen += found == nullptr;
+  }
   return static_cast<double>(seen) / samples;
 }
 
-double Oracle::unoccluded(const Vec3& x, std::span<const CasterFace> own, const DiskLight& light, int samples,
+double Oracle::unoccluded(const Vec3& x, std::span<const CasterFace> own, const Light& light, int samples,
                           std::uint64_t seed) const {
   return share(x, own, light, samples, seed, [](const Vec3&) { return true; });
 }
 
 double Oracle::visibility(const Vec3& x, const Vec3& normal, std::optional<CasterFace> own,
-                          const DiskLight& light, int samples, std::uint64_t seed) const {
+                          const Light& light, int samples, std::uint64_t seed) const {
   const std::span<const CasterFace> faces = own ? std::span(&*own, 1) : std::span<const CasterFace>();
-  return share(x, faces, light, samples, seed, [&](const Vec3& q) { return sign_of_dot(normal, q, x) > 0; });
+  // The direction to q is q - x, or q itself.
+  const Vec3 from = emitter_of(light).distant ? Vec3(0.0) : x;
+  return share(x, faces, light, samples, seed,
+               [&](const Vec3& q) { return sign_of_dot(normal, q, from) > 0; });
 }
 
 }  // namespace penumbra::oracle

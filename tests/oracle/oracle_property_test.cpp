@@ -41,13 +41,14 @@ std::array<Vec3, 3> corners_of(const TriangleMesh& mesh, std::size_t face) {
 
 struct Case {
   TriangleMesh mesh;
-  Vec3 x, q;
-  DiskLight light;
+  Ray ray;
+  Light light;
 };
 
 /// Faces with small integers as corners, one more of which the ray aims at: at a corner, a point of an edge, a point of
-/// the plane. All of it may be far from the origin, tiny, or off by one unit in the last place.
-Case degenerate_case(Random& random) {
+/// the plane. All of it may be far from the origin, tiny, or off by one unit in the last place. The ray ends at a disk, or
+/// it has a direction and no end.
+Case degenerate_case(Random& random, bool distant) {
   std::vector<Vec3> points;
   for (int i = 0; i < 6; ++i) points.push_back(random.lattice(4));
   std::vector<IndexedTriangle> faces = {{0, 1, 2}, {1, 3, 2}, {2, 3, 4}, {0, 4, 5}};
@@ -71,37 +72,45 @@ Case degenerate_case(Random& random) {
     p = scale * (p + offset);
     if (nudged && random.integer(0, 3) == 0) random.nudge(p);
   };
+  const Vec3 direction = std::ldexp(1.0, random.integer(-40, 40)) * (q - x);
   for (Vec3& p : points) place(p);
   for (Vec3* p : {&x, &q, &center}) place(*p);
-  return {TriangleMesh::build(points, faces), x, q, {center, normal, 1.0}};
+  const TriangleMesh mesh = TriangleMesh::build(points, faces);
+  if (!distant) return {mesh, {x, q, center, normal}, DiskLight{center, normal, 1.0}};
+  Ray ray{x, direction, Vec3(0.0), Vec3(0.0), true};
+  if (nudged && random.integer(0, 1)) random.nudge(ray.q);
+  return {mesh, ray, DistantLight{-ray.q, 1.0}};
 }
 
 /// A point in front of the light, and q farther towards it: what Oracle::blocked asks for.
 bool is_sound(const Case& c) {
-  const RationalPoint m = exact(c.light.normal), x = exact(c.x);
-  return dot(m, minus(x, exact(c.light.center))) > 0 && dot(m, minus(x, exact(c.q))) > 0;
+  if (c.ray.endless) return c.ray.q != Vec3(0.0);
+  const RationalPoint m = exact(c.ray.normal), x = exact(c.ray.x);
+  return dot(m, minus(x, exact(c.ray.center))) > 0 && dot(m, minus(x, exact(c.ray.q))) > 0;
 }
 
-TEST(OracleProperty, DegenerateRaysAgreeWithRationals) {
+void degenerate_rays_agree_with_rationals(bool distant) {
   int cases = 0, blocked = 0, rim = 0, flat = 0, unsigned_by_double = 0;
   for (std::uint64_t seed = 0; cases < 10000; ++seed) {
     Random random(seed);
-    const Case c = degenerate_case(random);
+    const Case c = degenerate_case(random, distant);
     if (!is_sound(c)) continue;
     ++cases;
     bool any = false, any_rim = false, any_flat = false;
     for (std::size_t f = 0; f < c.mesh.triangles().size(); ++f) {
       const std::array<Vec3, 3> face = corners_of(c.mesh, f);
-      const Meeting meeting = meeting_of(c.x, c.q, c.light, face);
+      const Meeting meeting = meeting_of(c.ray, face);
       any = any || meeting == Meeting::kInside || meeting == Meeting::kOnTheRim;
       any_rim = any_rim || meeting == Meeting::kOnTheRim;
       any_flat = any_flat || meeting == Meeting::kFlat;
       for (std::size_t i = 0; i < 3; ++i)
-        unsigned_by_double += !determinant(c.q - c.x, face[i] - c.x, face[(i + 1) % 3] - c.x).sign();
+        unsigned_by_double += !determinant(distant ? c.ray.q : c.ray.q - c.ray.x, face[i] - c.ray.x,
+                                           face[(i + 1) % 3] - c.ray.x)
+                                   .sign();
     }
     const Oracle oracle(std::span(&c.mesh, 1));
-    ASSERT_EQ(oracle.blocked(c.x, c.q, {}, c.light), any) << "seed " << seed;
-    ASSERT_EQ(oracle.blocked_by_any(c.x, c.q, {}, c.light), any) << "seed " << seed;
+    ASSERT_EQ(oracle.blocked(c.ray.x, c.ray.q, {}, c.light), any) << "seed " << seed;
+    ASSERT_EQ(oracle.blocked_by_any(c.ray.x, c.ray.q, {}, c.light), any) << "seed " << seed;
     blocked += any;
     rim += any_rim;
     flat += any_flat;
@@ -112,6 +121,14 @@ TEST(OracleProperty, DegenerateRaysAgreeWithRationals) {
   EXPECT_GT(rim, 1000);
   EXPECT_GT(flat, 300);
   EXPECT_GT(unsigned_by_double, 3000);
+}
+
+TEST(OracleProperty, DegenerateRaysAgreeWithRationals) {
+  degenerate_rays_agree_with_rationals(false);
+}
+
+TEST(OracleProperty, DegenerateDirectionsAgreeWithRationals) {
+  degenerate_rays_agree_with_rationals(true);
 }
 
 /// Points a few roundings above a plane of rounded coordinates, both sides of the limit of four.
@@ -218,16 +235,53 @@ TEST(OracleProperty, HierarchyFindsWhatAllFacesDo) {
         x = face[0] + 0.5 * (face[0] - q);
       }
       if (x == q) continue;
-      const DiskLight light{q, x - q, 1.0};
       const CasterFace own[] = {{0, FaceId{static_cast<std::uint32_t>(random.integer(0, 299))}}};
-      const bool expected = oracle.blocked_by_any(x, q, own, light);
-      ASSERT_EQ(oracle.blocked(x, q, own, light), expected) << "seed " << seed << ", ray " << i;
-      blocked += expected;
-      ++rays;
+      const auto agree = [&](const Vec3& target, const Light& light) {
+        const bool expected = oracle.blocked_by_any(x, target, own, light);
+        ASSERT_EQ(oracle.blocked(x, target, own, light), expected) << "seed " << seed << ", ray " << i;
+        blocked += expected;
+        ++rays;
+      };
+      agree(q, DiskLight{q, x - q, 1.0});
+      agree(q - x, DistantLight{x - q, 1.0});
     }
   }
   EXPECT_GT(blocked, rays / 5);
   EXPECT_LT(blocked, rays * 9 / 10);
+}
+
+/// A camera's ray: the nearest of all faces, by distances of its own.
+TEST(OracleProperty, FirstHitIsTheNearest) {
+  int hits = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const TriangleMesh mesh = make_random_triangles(Vec3(0.0), 1.0, 0.3, 200, seed);
+    const Oracle oracle(std::span(&mesh, 1));
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 start = random.point(2), direction = random.point(1) - start;
+      double nearest = std::numeric_limits<double>::infinity();
+      std::uint32_t expected = 0;
+      for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f) {
+        const auto corner = corners_of(mesh, f);
+        const Vec3 u = corner[1] - corner[0], v = corner[2] - corner[0], w = start - corner[0];
+        const double across = glm::dot(glm::cross(v, u), direction);
+        const double t = glm::dot(glm::cross(u, v), w) / across;
+        const double s1 = glm::dot(glm::cross(w, v), direction) / -across,
+                     s2 = glm::dot(glm::cross(u, w), direction) / -across;
+        if (t <= 0 || s1 < 0 || s2 < 0 || s1 + s2 > 1 || t >= nearest) continue;
+        nearest = t;
+        expected = f;
+      }
+      const std::optional<Hit> hit = oracle.first_hit(start, direction);
+      ASSERT_EQ(hit.has_value(), std::isfinite(nearest)) << "seed " << seed << ", ray " << i;
+      if (!hit) continue;
+      EXPECT_EQ(hit->face, (CasterFace{0, FaceId{expected}})) << "seed " << seed << ", ray " << i;
+      EXPECT_NEAR(hit->distance, nearest, 1e-9 * nearest);
+      ++hits;
+    }
+  }
+  EXPECT_GT(hits, 2000);
+  EXPECT_LT(hits, 9500);
 }
 
 /// The sheet is its own box in the hierarchy, without thickness: a ray to its rim hits both or neither.
@@ -245,6 +299,9 @@ TEST(OracleProperty, RaysToTheRimOfABoxAreNotLost) {
     const bool expected = oracle.blocked_by_any(x, q, {}, light);
     ASSERT_EQ(oracle.blocked(x, q, {}, light), expected) << "seed " << seed;
     blocked += expected;
+    const DistantLight sun{x - aim, 1.0};
+    ASSERT_EQ(oracle.blocked(x, aim - x, {}, sun), oracle.blocked_by_any(x, aim - x, {}, sun))
+        << "seed " << seed;
   }
   EXPECT_GT(blocked, 5000);
   EXPECT_LT(blocked, 15000);
@@ -277,10 +334,14 @@ TEST(OracleProperty, FacesInTheReceiversPlaneHideNothing) {
       EXPECT_EQ(Oracle(std::span(casters, 2)).unoccluded(x, own, light, 64, seed), 1) << "seed " << seed;
       EXPECT_EQ(Oracle(std::span(casters, 2)).visibility(x, side * n, own[0], light, 64, seed), 1)
           << "seed " << seed;
+      const DistantLight sun{-side * n + 0.3 * u, 10.0};
+      EXPECT_EQ(Oracle(std::span(casters, 2)).visibility(x, side * n, own[0], sun, 64, seed), 1)
+          << "seed " << seed;
       // The same faces a little above x hide all of the light.
       const double above = 1e-11 * (std::abs(center.x) + std::abs(center.y) + std::abs(center.z) + 1);
       const TriangleMesh lifted = turned_plane(3, 1e3 * u, n, 1e3 * v, center + side * above * n);
       EXPECT_EQ(Oracle(std::span(&lifted, 1)).unoccluded(x, {}, light, 64, seed), 0) << "seed " << seed;
+      EXPECT_EQ(Oracle(std::span(&lifted, 1)).unoccluded(x, {}, sun, 64, seed), 0) << "seed " << seed;
     }
   }
 }

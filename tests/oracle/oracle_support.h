@@ -48,6 +48,22 @@ inline TriangleMesh make_sheet(double y, double x0, double x1, double z0, double
   return make_quad({x0, y, z0}, {x0, y, z1}, {x1, y, z1}, {x1, y, z0});
 }
 
+/// A plate at height y from a hole of this radius to an outer one, both around the axis x = z = 0.
+inline TriangleMesh make_plate_with_hole(double y, double hole, double outer) {
+  constexpr std::uint32_t kSides = 1000;
+  std::vector<Vec3> points;
+  std::vector<IndexedTriangle> faces;
+  for (std::uint32_t i = 0; i < kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / kSides, x = std::cos(angle), z = std::sin(angle);
+    points.emplace_back(hole * x, y, hole * z);
+    points.emplace_back(outer * x, y, outer * z);
+    const std::uint32_t next = 2 * ((i + 1) % kSides);
+    faces.push_back({2 * i, 2 * i + 1, next});
+    faces.push_back({next, 2 * i + 1, next + 1});
+  }
+  return TriangleMesh::build(points, faces);
+}
+
 /// A light at height `height` above a point of the ground. It shines down.
 inline DiskLight light_above(const Vec3& ground, double height, double radius) {
   return {{ground.x, ground.y + height, ground.z}, {0, -1, 0}, radius};

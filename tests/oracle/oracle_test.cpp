@@ -21,7 +21,7 @@ constexpr int kSamples = 4096;
 // The largest error that the header states for a half-plane.
 constexpr double kHalfPlane = 0.0024;
 
-double seen(std::initializer_list<TriangleMesh> casters, const Vec3& x, const DiskLight& light,
+double seen(std::initializer_list<TriangleMesh> casters, const Vec3& x, const Light& light,
             std::uint64_t seed = 1) {
   return Oracle(std::span(casters.begin(), casters.size())).unoccluded(x, {}, light, kSamples, seed);
 }
@@ -92,18 +92,7 @@ TEST(Oracle, Slab) {
 }
 
 TEST(Oracle, HoleInAPlate) {
-  constexpr int kSides = 1000;
-  std::vector<Vec3> points;
-  std::vector<IndexedTriangle> faces;
-  for (std::uint32_t i = 0; i < kSides; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kSides, x = std::cos(angle), z = std::sin(angle);
-    points.emplace_back(0.1 * x, 2.0, 0.1 * z);
-    points.emplace_back(50 * x, 2.0, 50 * z);
-    const std::uint32_t next = 2 * ((i + 1) % kSides);
-    faces.push_back({2 * i, 2 * i + 1, next});
-    faces.push_back({next, 2 * i + 1, next + 1});
-  }
-  const TriangleMesh plate = TriangleMesh::build(points, faces);
+  const TriangleMesh plate = make_plate_with_hole(2.0, 0.1, 50);
   // From the ground at height 0 the hole covers a disk of radius 0.2 on the light, and moves by as much as x does.
   for (const double radius : {0.1, 0.2, 0.3, 0.5})
     for (const double off : {0.0, 0.05, 0.2, 0.35, 0.8})

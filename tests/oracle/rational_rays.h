@@ -9,7 +9,7 @@
 #include <cstddef>
 
 #include "penumbra/mesh/triangle_mesh.h"
-#include "penumbra/volumes/disk_light.h"
+#include "tests/oracle/signs.h"
 
 namespace penumbra::oracle {
 
@@ -54,20 +54,19 @@ inline bool is_flat(const FacePoints& points) {
 
 enum class Meeting { kMisses, kInside, kOnTheRim, kFlat };
 
-/// How the open segment from x towards q, up to the light's plane, meets a face. kFlat: it would, but the face's plane
-/// contains x.
-inline Meeting meeting_of(const Vec3& x, const Vec3& q, const DiskLight& light,
-                          const std::array<Vec3, 3>& face) {
-  const FacePoints points = {exact(face[0]), exact(face[1]), exact(face[2]), exact(x)};
-  const RationalPoint d = minus(exact(q), points[3]);
+/// How a ray, open at both ends, meets a face. kFlat: it would, but the face's plane contains x.
+inline Meeting meeting_of(const Ray& ray, const std::array<Vec3, 3>& face) {
+  const FacePoints points = {exact(face[0]), exact(face[1]), exact(face[2]), exact(ray.x)};
+  const RationalPoint d = ray.endless ? exact(ray.q) : minus(exact(ray.q), points[3]);
   const RationalPoint n = cross(minus(points[1], points[0]), minus(points[2], points[0]));
   const Rational along = dot(n, d);
   if (along == 0) return Meeting::kMisses;
   const Rational t = dot(n, minus(points[0], points[3])) / along;
   RationalPoint at = points[3];
   for (std::size_t i = 0; i < 3; ++i) at[i] += t * d[i];
-  // In front of the light.
-  if (t < 0 || dot(exact(light.normal), minus(at, exact(light.center))) <= 0) return Meeting::kMisses;
+  if (t < 0) return Meeting::kMisses;
+  const bool is_before_light = ray.endless || dot(exact(ray.normal), minus(at, exact(ray.center))) > 0;
+  if (!is_before_light) return Meeting::kMisses;
   bool rim = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const RationalPoint edge = minus(points[(i + 1) % 3], points[i]);

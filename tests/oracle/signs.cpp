@@ -55,6 +55,11 @@ Vector<Number> minus(const Vec3& a, const Vec3& b) {
   return {Make<Number>::minus(a.x, b.x), Make<Number>::minus(a.y, b.y), Make<Number>::minus(a.z, b.z)};
 }
 
+template <class Number>
+Vector<Number> direction(const Ray& ray) {
+  return ray.endless ? vector<Number>(ray.q) : minus<Number>(ray.q, ray.x);
+}
+
 std::optional<int> sign_of(const Bounded& a) {
   return a.sign();
 }
@@ -80,7 +85,7 @@ std::optional<int> side_of_face_by(const Vec3& x, const Corners& face) {
 
 template <class Number>
 std::optional<int> light_minus_hit(const Ray& ray, const Corners& face) {
-  const auto a = minus<Number>(face.a, ray.x), d = minus<Number>(ray.q, ray.x);
+  const auto a = minus<Number>(face.a, ray.x), d = direction<Number>(ray);
   const auto n = cross(minus<Number>(face.b, face.a), minus<Number>(face.c, face.a));
   const auto m = vector<Number>(ray.normal);
   return sign_of(Number(Number(abs(dot(m, minus<Number>(ray.center, ray.x)))) * Number(abs(dot(d, n))) -
@@ -143,9 +148,9 @@ int sign_of_dot(const Vec3& n, const Vec3& p, const Vec3& q) {
 }
 
 int side_of_edge(const Ray& ray, const Vec3& a, const Vec3& b) {
-  if (const auto sign = determinant(ray.q - ray.x, a - ray.x, b - ray.x).sign()) return *sign;
-  return sgn(
-      dot(minus<mpq_class>(ray.q, ray.x), cross(minus<mpq_class>(a, ray.x), minus<mpq_class>(b, ray.x))));
+  const Vec3 d = ray.endless ? ray.q : ray.q - ray.x;
+  if (const auto sign = determinant(d, a - ray.x, b - ray.x).sign()) return *sign;
+  return sgn(dot(direction<mpq_class>(ray), cross(minus<mpq_class>(a, ray.x), minus<mpq_class>(b, ray.x))));
 }
 
 int side_of_face(const Vec3& x, const Corners& face) {
@@ -154,6 +159,7 @@ int side_of_face(const Vec3& x, const Corners& face) {
 }
 
 bool is_before_light(const Ray& ray, const Corners& face) {
+  if (ray.endless) return true;
   if (const auto sign = light_minus_hit<Bounded>(ray, face)) return *sign > 0;
   return *light_minus_hit<mpq_class>(ray, face) > 0;
 }
