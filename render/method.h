@@ -40,8 +40,6 @@ struct MethodInput {
   /// MethodResult::textures is wanted.
   bool keep_textures = false;
   const Progress& progress;
-  /// For so many lights that are asked about in turn, what depends on a light's frame may be kept.
-  std::size_t kept_frames = 1;
 };
 
 struct MethodResult {
@@ -66,7 +64,7 @@ struct MethodResult {
 
 /// One way to find visibility, kept from call to call so that what does not change is not made again. What has
 /// changed it finds out itself: by the light's numbers and by Receivers::revision. The objects are those that
-/// it was made with, the rays may be others each time.
+/// it was made with; so are those of the rays, which may be others each time.
 class Method {
  public:
   virtual ~Method() = default;

@@ -56,40 +56,29 @@ struct Renderer::State {
 
   /// What the camera sees; that of the picture before where nothing has changed that it depends on.
   const SurfaceBuffer& look(const RenderOptions& options);
-  /// Rays for a light, by its place in the scene.
-  const RayScene& rays(std::size_t light, const RenderOptions& options);
 
   Scene scene;
   Casters casters;
-  /// What the camera saw last, and the frame of the rays that found it.
+  /// What the camera saw last.
   struct Seen {
     Camera camera;
-    RayFrame frame;
     SurfaceBuffer surface;
   };
   std::optional<Seen> seen;
 };
 
-const RayScene& Renderer::State::rays(std::size_t light, const RenderOptions& options) {
-  const LightShape& shape = scene.lights[light].shape;
-  return options.draft ? casters.impl().rays_near(shape) : casters.impl().rays_for(shape);
-}
-
 const SurfaceBuffer& Renderer::State::look(const RenderOptions& options) {
-  const RayScene& first = rays(0, options);
-  const bool same = seen && seen->camera == scene.camera && seen->frame == first.frame() &&
-                    seen->surface.width == options.width && seen->surface.height == options.height;
+  const bool same = seen && seen->camera == scene.camera && seen->surface.width == options.width &&
+                    seen->surface.height == options.height;
   if (!same)
     seen =
-        Seen{scene.camera, first.frame(), make_surface_buffer(scene, first, options.width, options.height)};
+        Seen{scene.camera, make_surface_buffer(scene, casters.impl().rays(), options.width, options.height)};
   return seen->surface;
 }
 
 Renderer::Renderer(Scene scene, int threads) : state_(std::make_unique<State>(std::move(scene), threads)) {
   require_names(state_->scene.lights);
   register_drawing_methods();
-  constexpr std::size_t kMost = 8;  // memory: a scene of more lights makes the others' rays anew
-  state_->casters.impl().kept_frames = std::min(kMost, state_->scene.lights.size());
 }
 Renderer::~Renderer() = default;
 
@@ -144,17 +133,14 @@ RenderResult Renderer::render(const RenderOptions& options) {
     require_valid(light.shape);
     require_taken(info, light.shape);
   }
-  state_->rays(0, options);
+  const RayScene& rays = casters.rays();
   clock.restart();  // one-time set-up, not a stage
   const SurfaceBuffer& surface = state_->look(options);
   clock.finish("surface_buffer");
   report(options.progress, 0.0);
   std::vector<LightVisibility> seen;
   StageTimes setup;
-  double ray_scene_ms = 0.0;
   for (std::size_t k = 0; k < lights.size(); ++k) {
-    const RayScene& rays = state_->rays(k, options);
-    ray_scene_ms += rays.build_ms();
     Method& method = casters.method(info);
     const Progress part = [&](double f) {
       return !options.progress ||
@@ -165,8 +151,7 @@ RenderResult Renderer::render(const RenderOptions& options) {
                                       .receivers = surface.receivers(),
                                       .options = out.options,
                                       .keep_textures = options.keep_textures,
-                                      .progress = part,
-                                      .kept_frames = casters.kept_frames});
+                                      .progress = part});
     require_complete(info, result, surface.size());
     add_to(out.stages, result.stages);
     add_to(setup, result.setup);
@@ -190,7 +175,7 @@ RenderResult Renderer::render(const RenderOptions& options) {
   add_to(stages, shading.stages());
   out.stages = std::move(stages);
   for (const StageTime& stage : out.stages) out.frame_ms += stage.milliseconds;
-  out.setup = {{"ray_scene", ray_scene_ms}};
+  out.setup = {{"ray_scene", rays.build_ms()}};
   add_to(out.setup, setup);
   for (const SceneObject& object : state_->scene.objects) out.scene_faces += object.mesh.triangles().size();
   return out;

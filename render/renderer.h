@@ -27,9 +27,6 @@ struct RenderOptions {
   int width = 640, height = 480;
   /// MethodFrame::textures is wanted.
   bool keep_textures = false;
-  /// A picture while a light moves: rays may keep the frame that they had for an earlier light. Right but for
-  /// the last digits of rays, and without the time that it takes to prepare rays for this light.
-  bool draft = false;
   /// Asked between stages and in the long ones.
   Progress progress{};
 };

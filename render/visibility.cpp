@@ -1,7 +1,5 @@
 #include "penumbra/render/visibility.h"
 
-#include <algorithm>
-
 #include "penumbra/mesh/error.h"
 #include "render/casters_impl.h"
 #include "render/light/valid_light.h"
@@ -22,21 +20,9 @@ Casters::Impl::Impl(std::vector<SceneObject> objects, int thread_count)
   scene.objects = std::move(objects);
 }
 
-const RayScene& Casters::Impl::rays_for(const LightShape& light) {
-  const RayFrame frame = ray_frame(scene, light);
-  const auto known =
-      std::find_if(rays_.begin(), rays_.end(), [&](const RayScene& r) { return r.frame() == frame; });
-  if (known != rays_.end()) {
-    rays_.splice(rays_.begin(), rays_, known);
-  } else {
-    rays_.emplace_front(scene, frame, threads);
-    if (rays_.size() > kept_frames) rays_.pop_back();
-  }
-  return rays_.front();
-}
-
-const RayScene& Casters::Impl::rays_near(const LightShape& light) {
-  return rays_.empty() ? rays_for(light) : rays_.front();
+const RayScene& Casters::Impl::rays() {
+  if (!rays_) rays_.emplace(scene, threads);
+  return *rays_;
 }
 
 Method& Casters::Impl::method(const MethodInfo& info) {
@@ -77,14 +63,12 @@ MethodResult visibility(const Casters& casters, const LightShape& light, const R
                          std::to_string(casters.objects().size()));
   Casters::Impl& impl = casters.impl();
   const std::lock_guard lock(impl.mutex);
-  const RayScene& rays = impl.rays_for(light);
-  MethodResult result = impl.method(info).run({.rays = rays,
+  MethodResult result = impl.method(info).run({.rays = impl.rays(),
                                                .light = light,
                                                .receivers = receivers,
                                                .options = values,
                                                .with_unoccluded = options.with_unoccluded,
-                                               .progress = options.progress,
-                                               .kept_frames = impl.kept_frames});
+                                               .progress = options.progress});
   require_complete(info, result, receivers.size());
   if (options.with_unoccluded && result.unoccluded.empty()) result.unoccluded = result.visibility;
   return result;

@@ -184,11 +184,8 @@ Comparison compare_to_scene(const Image& image, const Scene& scene, const Judged
   const Judged judged{wanted.object, scene.lights.size() > 1 ? scene.lights[light].name : ""};
   Comparison comparison;
   comparison.judged = receivers(image, judged);
-  const RayScene rays(scene, ray_frame(scene, scene.lights[light].shape),
-                      detail::make_threads(options.threads));
-  // As the picture was made: in the frame of the first light.
-  const RayScene camera_rays(scene, options.threads);
-  const SurfaceBuffer surface = make_surface_buffer(scene, camera_rays, image.width, image.height);
+  const RayScene rays(scene, options.threads);
+  const SurfaceBuffer surface = make_surface_buffer(scene, rays, image.width, image.height);
   Bounds bounds = scene.bounds();
   bounds.add(scene.camera.eye);
   const double tolerance = kPositionTolerance * (bounds.radius() + glm::length(bounds.center()));

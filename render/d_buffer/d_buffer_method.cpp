@@ -2,7 +2,7 @@
 
 #include "render/d_buffer/d_buffer.h"
 #include "render/gl/context_options.h"
-#include "render/gl/kept_by_frame.h"
+#include "render/gl/kept_in_context.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_scene.h"
 #include "render/word_option.h"
@@ -47,10 +47,10 @@ class DBufferMethod : public Method {
   }
 
   void forget() override {
-    kept_.for_each([](WithReceivers& each) {
-      each.revision = 0;
-      each.buffer.forget_light();
-    });
+    if (WithReceivers* kept = kept_.get()) {
+      kept->revision = 0;
+      kept->buffer.forget_light();
+    }
   }
 
  private:
@@ -70,7 +70,7 @@ class DBufferMethod : public Method {
     std::uint64_t revision = 0;
   };
 
-  gl::KeptByFrame<WithReceivers> kept_;
+  gl::KeptInContext<WithReceivers> kept_;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "render/gl/context_options.h"
-#include "render/gl/kept_by_frame.h"
+#include "render/gl/kept_in_context.h"
 #include "render/occlusion_textures/occlusion_textures.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_scene.h"
@@ -56,7 +56,7 @@ class OcclusionTexturesMethod : public Method {
   }
 
  private:
-  gl::KeptByFrame<OcclusionTextures> kept_;
+  gl::KeptInContext<OcclusionTextures> kept_;
 };
 
 }  // namespace

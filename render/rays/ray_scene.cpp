@@ -65,15 +65,14 @@ RayScene::Impl::~Impl() {
   rtcReleaseDevice(device);
 }
 
-RayScene::RayScene(const Scene& scene, const RayFrame& frame, detail::Threads threads)
-    : frame_(frame), threads_(std::move(threads)) {
+RayScene::RayScene(const Scene& scene, detail::Threads threads)
+    : frame_(ray_frame(scene)), threads_(std::move(threads)) {
   const auto start = std::chrono::steady_clock::now();
   impl_ = std::make_unique<Impl>(scene, frame_, *threads_);
   build_ms_ = milliseconds_since(start);
 }
 
-RayScene::RayScene(const Scene& scene, int threads)
-    : RayScene(scene, ray_frame(scene), detail::make_threads(threads)) {}
+RayScene::RayScene(const Scene& scene, int threads) : RayScene(scene, detail::make_threads(threads)) {}
 
 RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;

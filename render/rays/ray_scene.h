@@ -12,11 +12,11 @@
 
 namespace penumbra {
 
-/// Embree's hierarchies over a scene's objects in one frame.
+/// Embree's hierarchies over a scene's objects, in the frame of its casters (ray_frame). They serve every light.
 class RayScene {
  public:
-  RayScene(const Scene& scene, const RayFrame& frame, detail::Threads threads);
-  /// In the frame of the scene's first light, on threads of its own (0: all cores).
+  RayScene(const Scene& scene, detail::Threads threads);
+  /// On threads of its own (0: all cores).
   RayScene(const Scene& scene, int threads);
   ~RayScene();
   RayScene(RayScene&&) noexcept;

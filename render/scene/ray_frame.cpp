@@ -4,28 +4,26 @@
 #include <cmath>
 
 namespace penumbra {
+namespace {
 
-RayFrame ray_frame(const Scene& scene, const LightShape& light) {
-  const DiskLight disk = disk_around(light);
-  RayFrame frame;
-  frame.origin = disk.center;
-  Bounds bounds = scene.bounds();
-  bounds.add(disk.center);
-  double reach = disk.radius;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p{corner & 1 ? bounds.high.x : bounds.low.x, corner & 2 ? bounds.high.y : bounds.low.y,
-                 corner & 4 ? bounds.high.z : bounds.low.z};
-    const Vec3 d = p - frame.origin;
-    for (int k = 0; k < 3; ++k) reach = std::max(reach, std::abs(d[k]));
-  }
-  if (reach > 0.0) frame.scale = std::exp2(-std::ceil(std::log2(reach)));
-  return frame;
+RayFrame frame_of(const Bounds& bounds) {
+  constexpr double kLargestExponent = 1000.0;  // of a scale that does not overflow
+  if (bounds.empty()) return {};
+  const Vec3 half = 0.5 * bounds.high - 0.5 * bounds.low;
+  const double reach = std::max({half.x, half.y, half.z});
+  const double exponent = reach > 0.0 ? -std::ceil(std::log2(reach)) : 0.0;
+  return {bounds.center(), std::exp2(std::min(exponent, kLargestExponent))};
 }
 
+}  // namespace
+
 RayFrame ray_frame(const Scene& scene) {
-  if (!scene.lights.empty()) return ray_frame(scene, scene.lights.front().shape);
-  const Bounds bounds = scene.bounds();
-  return ray_frame(scene, DiskLight{.center = bounds.empty() ? Vec3(0.0) : bounds.center()});
+  const Bounds casters = scene.caster_bounds();
+  return casters.empty() ? frame_of_all_objects(scene) : frame_of(casters);
+}
+
+RayFrame frame_of_all_objects(const Scene& scene) {
+  return frame_of(scene.bounds());
 }
 
 }  // namespace penumbra

@@ -1,7 +1,7 @@
-// The frame of float stages: where rays and edges have their digits.
+// The frame of float stages: where rays have their digits.
 //
-// Everything is moved to the light's center and scaled by a power of two to about unit size, so that float keeps
-// its digits where shadows are decided.
+// Everything is moved to the middle of what casts and scaled by a power of two, so that casters fill about [-1, 1] and
+// float keeps its digits where shadows are decided. Lights and receivers may lie anywhere outside.
 #pragma once
 
 #include "penumbra/render/scene/scene.h"
@@ -16,14 +16,14 @@ struct RayFrame {
   Vec3 to_local(const Vec3& world) const { return (world - origin) * scale; }
 };
 
-/// The frame of objects under a light: origin at the light, bounds of objects and light scaled into [-1, 1].
-RayFrame ray_frame(const Scene& scene, const LightShape& light);
-/// The same under the scene's first light; about the objects where it has none.
+/// Takes the objects that cast into [-1, 1], or all objects where none casts. Lights do not matter.
 RayFrame ray_frame(const Scene& scene);
+/// Takes all objects into [-1, 1].
+RayFrame frame_of_all_objects(const Scene& scene);
 
 /// Rays start this far (local units) from the surface, along the geometric normal towards the viewer. Float
 /// coordinates of size 1 round to 6e-8; with Embree's robust mode 1e-5 keeps a surface from shadowing itself,
-/// and moves contact shadows by a hundred-thousandth of the scene.
+/// and moves contact shadows by a hundred-thousandth of the casters.
 inline constexpr double kRayOffset = 1e-5;
 
 /// What lies nearer to the light's plane than this (local units) hides nothing: whether a sheet in that plane

@@ -1,8 +1,5 @@
 #include "render/silhouette/silhouette_method.h"
 
-#include <algorithm>
-#include <list>
-
 #include "penumbra/mesh/stage_clock.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_methods.h"
@@ -41,17 +38,16 @@ Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
           {"open", open}};
 }
 
-/// What both methods share: hierarchies, kept for the frames of the last lights (MethodInput::kept_frames).
+/// What both methods share: hierarchies over edges, which serve every light.
 class BySilhouettes : public Method {
  public:
-  explicit BySilhouettes(const Scene& objects) : scene_(objects) {}
+  explicit BySilhouettes(const Scene& objects) : scene_(objects), hierarchies_(objects) {}
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
-    detail::EdgeHierarchies& hierarchies = hierarchies_for(input);
     MethodResult out;
-    run_on_disk(input, require_disk(input.light, "silhouettes"), hierarchies, out);
-    out.setup = {{"edge_hierarchy", hierarchies.milliseconds()}};
+    run_on_disk(input, require_disk(input.light, "silhouettes"), hierarchies_, out);
+    out.setup = {{"edge_hierarchy", hierarchies_.milliseconds()}};
     return out;
   }
 
@@ -61,20 +57,7 @@ class BySilhouettes : public Method {
   const Scene& scene_;
 
  private:
-  detail::EdgeHierarchies& hierarchies_for(const MethodInput& input) {
-    const RayFrame& frame = input.rays.frame();
-    const auto known = std::find_if(hierarchies_.begin(), hierarchies_.end(),
-                                    [&](const detail::EdgeHierarchies& h) { return h.frame() == frame; });
-    if (known != hierarchies_.end()) {
-      hierarchies_.splice(hierarchies_.begin(), hierarchies_, known);
-    } else {
-      hierarchies_.emplace_front(scene_, frame);
-      if (hierarchies_.size() > input.kept_frames) hierarchies_.pop_back();
-    }
-    return hierarchies_.front();
-  }
-
-  std::list<detail::EdgeHierarchies> hierarchies_;  ///< the last used first
+  detail::EdgeHierarchies hierarchies_;
 };
 
 class SilhouetteMethod : public BySilhouettes {

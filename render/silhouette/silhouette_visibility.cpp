@@ -85,7 +85,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
     if (passes.now < passes.last()) return make_merged_band(lit, *merged, *passes.levels[passes.now]);
     std::vector<ReceiverRegion> regions;
     if (passes.now > 0 && tiles.are_few(some))
-      regions = regions_of(some, passes, source, light, rays.frame());
+      regions = regions_of(some, passes, source, light, hierarchies.frame());
     return make_band(lit, edges, regions);
   };
   tbb::enumerable_thread_specific<Workspace> spaces;

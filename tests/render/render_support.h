@@ -122,7 +122,7 @@ class View {
       : scene(scene_),
         rays(scene_, threads),
         surface(make_surface_buffer(scene_, rays, width, height)),
-        hierarchies_(scene_, rays.frame()) {}
+        hierarchies_(scene_) {}
 
   Values trace(const Pixels& pixels, int samples, std::uint64_t seed) const {
     return trace_reference(rays, scene.lights.front().shape, surface.receivers(), pixels,

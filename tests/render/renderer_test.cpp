@@ -170,7 +170,6 @@ TEST(Renderer, WhatIsKeptChangesNothing) {
   scene.camera.eye.y += 0.3;
   keeping.set_camera(scene.camera);
   for (const Choice& each : all) expect_same(each, "another camera");
-  // A radius leaves the frame of rays alone, a place does not.
   testing::light_of(scene).radius *= 1.5;
   keeping.set_light(0, scene.lights[0]);
   for (const Choice& each : all) expect_same(each, "another radius");
@@ -182,33 +181,6 @@ TEST(Renderer, WhatIsKeptChangesNothing) {
   for (const Choice& each : all) expect_same(each, "the place before");
   keeping.forget();
   for (const Choice& each : all) expect_same(each, "all forgotten");
-}
-
-// Rays of an earlier light's frame: not the same bits, but no shadow of the earlier light either.
-TEST(Renderer, DraftsFollowTheLight) {
-  Scene scene = testing::data_scene("torus-medium");
-  for (Choice each : choices()) {
-    Renderer keeping(scene);
-    keeping.render(each.options);
-    Scene moved = scene;
-    testing::light_of(moved).center.x += 0.6;
-    const testing::Values before = render(scene, each.options).image.at("visibility"),
-                          after = render(moved, each.options).image.at("visibility");
-    keeping.set_light(0, moved.lights[0]);
-    each.options.draft = true;
-    const testing::Values draft = keeping.render(each.options).image.at("visibility");
-    std::size_t moved_pixels = 0, wrong = 0;
-    for (std::size_t i = 0; i < draft.size(); ++i) {
-      moved_pixels += std::abs(before[i] - after[i]) > 0.02f;
-      wrong += std::abs(draft[i] - after[i]) > 0.02f;
-    }
-    if (each.name != "none") {
-      EXPECT_GT(moved_pixels, 100u) << each.name;
-    }
-    EXPECT_LE(wrong, draft.size() / 200) << each.name;
-    each.options.draft = false;
-    EXPECT_EQ(keeping.render(each.options).image.at("visibility"), after) << each.name;
-  }
 }
 
 TEST(Renderer, RefusesWhatItsSceneDoesNotHave) {

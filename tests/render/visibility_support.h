@@ -24,7 +24,7 @@ inline const DiskLight& light_of(const Scene& scene) {
 inline SilhouetteResult see_silhouettes(const Scene& scene, const RayScene& rays,
                                         const SurfaceBuffer& surface, const SilhouetteOptions& options = {},
                                         const Progress& progress = {}) {
-  detail::EdgeHierarchies hierarchies(scene, rays.frame());
+  detail::EdgeHierarchies hierarchies(scene);
   return silhouette_visibility(scene, rays, hierarchies, light_of(scene), surface.receivers(), options,
                                progress);
 }

@@ -146,7 +146,7 @@ std::size_t differing_without_normals(const std::string& method, bool move, doub
   std::vector<Vec3> bare = points.points;
   if (move)
     for (std::size_t i = 0; i < bare.size(); ++i)
-      bare[i] += detail::receiver_offset(ray_frame(scene, light)) * points.normals[i];
+      bare[i] += detail::receiver_offset(ray_frame(scene)) * points.normals[i];
   const MethodResult without = visibility(casters, light, {.points = bare}, options);
   EXPECT_EQ(without.unoccluded, without.visibility) << method;
   EXPECT_EQ(with.unoccluded.size(), bare.size()) << method;

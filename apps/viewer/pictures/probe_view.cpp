@@ -22,7 +22,7 @@ ProbeAnswer answer_for(const Scene& scene, const Casters& casters, const LightSh
       visibility(casters, light, point.receivers(),
                  {.method = "reference", .options = {{"samples", std::uint64_t{kRays}}}});
   const DiskLight disk = disk_around(light);
-  const Vec3 start = x + n * (kRayOffset / ray_frame(scene, light).scale);  // where the rays start
+  const Vec3 start = x + n * (kRayOffset / ray_frame(scene).scale);  // where the rays start
   return {.disk = disk_seen_from(scene, disk, start, n, kSide),
           .by_rays = double{traced.visibility.front()},
           .above_horizon = fraction_above_horizon(area_light(light), x, n)};

@@ -21,7 +21,6 @@ OptionValue cheaper(const OptionSchema& option, const RenderOptions& options) {
 
 RenderOptions DraftPolicy::draft_of(const RenderOptions& options) const {
   RenderOptions draft = options;
-  draft.draft = true;
   for (const OptionSchema& option : method_named(options.method).options)
     if (option.draft) draft.options[option.name] = cheaper(option, options);
   if (reduction_ == 1) return draft;

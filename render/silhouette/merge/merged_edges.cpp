@@ -18,9 +18,9 @@ namespace penumbra::detail {
 namespace {
 
 // Speed. Seen in the benchmark `growth`.
-/// The tolerance of the finest level, in the frame of rays. Each level doubles it.
+/// The tolerance of the finest level, in the frame of all objects. Each level doubles it.
 constexpr double kFinest = 0x1p-22;
-constexpr int kMostLevels = 13;
+constexpr int kMostLevels = 16;
 /// The most patches and single faces of the finest level, over the number of faces. At its tolerance only
 /// flat patches merge, which costs no accuracy.
 constexpr double kWorthFlat = 0.3;

@@ -69,16 +69,16 @@ inline Scene scene_of(const TriangleMesh& mesh) {
   return scene;
 }
 
-/// In the frame of rays.
+/// In the frame of all objects.
 inline detail::MergedEdges merged_edges_of(const Scene& scene) {
-  const RayFrame frame = ray_frame(scene);
+  const RayFrame frame = frame_of_all_objects(scene);
   return {scene, frame.origin, frame.scale};
 }
 
 /// A scene under its light.
 struct Stage {
   explicit Stage(const Scene& scene)
-      : frame(ray_frame(scene)),
+      : frame(frame_of_all_objects(scene)),
         light(light_of(scene)),
         edges(scene, frame.origin, frame.scale),
         lit(scene, light, edges),

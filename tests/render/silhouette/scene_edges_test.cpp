@@ -18,7 +18,7 @@ using testing::Random;
 using Pair = std::pair<std::uint32_t, std::uint32_t>;  // object and edge
 
 SceneEdges edges_of(const Scene& scene) {
-  const RayFrame frame = ray_frame(scene);
+  const RayFrame frame = frame_of_all_objects(scene);
   return {scene, frame.origin, frame.scale};
 }
 
