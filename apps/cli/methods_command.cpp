@@ -15,8 +15,14 @@ constexpr const char* kFooter = R"(Examples:
 The options are those of penumbra render.)";
 
 std::string lights_of(const MethodInfo& method) {
-  if (method.takes_disks && method.takes_rectangles) return "disk, rectangle";
-  return method.takes_disks ? "disk" : "rectangle";
+  std::string text;
+  const auto add = [&](bool taken, const char* shape) {
+    if (taken) text += (text.empty() ? "" : ", ") + std::string(shape);
+  };
+  add(method.takes_disks, "disk");
+  add(method.takes_rectangles, "rectangle");
+  add(method.takes_distant, "distant");
+  return text;
 }
 
 std::string to_table() {

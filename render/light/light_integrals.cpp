@@ -2,6 +2,9 @@
 // the rim from φ0 to φ1 is -1/2 ∫ n·(r × r') / |r|² dφ with r the rim point seen from x. With ψ the angle
 // from the direction of (X, Y) the integrand is (A + B cos ψ + D sin ψ) / (E - K cos ψ): an elementary
 // integral (`rim_part`).
+//
+// A distant light is seen on the axis, where the integral becomes short, and where what is of first order in a
+// small radius can be taken out of it by hand (`distant_factor`).
 #include "render/light/light_integrals.h"
 
 #include <algorithm>
@@ -67,6 +70,27 @@ double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
                            detail::edge_irradiance(rim(middle + reach), rim(middle - reach), n));
 }
 
+/// atan t - t/(1 + t²), t ≥ 0: by its series where the two are nearly equal.
+double arc_less_chord(double t) {
+  if (t > 0.05) return std::atan(t) - t / (1.0 + t * t);
+  const double q = t * t;
+  return t * q *
+         (2.0 / 3 - q * (4.0 / 5 - q * (6.0 / 7 - q * (8.0 / 9 - q * (10.0 / 11 - q * (12.0 / 13))))));
+}
+
+/// With δ the horizon's chord, c² = 1 + ρ²δ² and t = ρ√(1-δ²)/c: the arc gives (ρ³δ acos(-δ)/c - t)/(1 + ρ²), the
+/// chord atan t, where 1 + ρ² = c²(1 + t²). Both are of the order of ρ and their sum of ρ³, hence the other order.
+double distant_factor(const Vec3& n, double rho) {
+  if (rho == 0.0) return std::max(0.0, -n.z);
+  const double delta = chord_of_plane(n, {0.0, 0.0, 1.0}, rho).delta, all = 1.0 + rho * rho;
+  if (!(delta > -1.0)) return 0.0;
+  if (delta >= 1.0) return -n.z * (kPi * rho * rho / all);
+  const double c2 = 1.0 + rho * rho * delta * delta, c = std::sqrt(c2);
+  const double t = rho * std::sqrt((1.0 - delta) * (1.0 + delta)) / c;
+  const double arc = delta * (rho * rho * rho * std::acos(-delta) / c + t * rho * rho * delta) / all;
+  return std::max(0.0, arc + arc_less_chord(t));
+}
+
 double horizon_in_frame(const Vec3& x, const Vec3& n, double rho) {
   if (x.z <= 0.0) return 0.0;
   if (rho == 0.0) return glm::dot(n, x) < 0.0 ? 1.0 : 0.0;
@@ -92,6 +116,7 @@ double fraction_above_horizon(const AreaLight& light, const Vec3& x, const Vec3&
 }
 
 double irradiance_factor(const AreaLight& light, const InLightFrame& p) {
+  if (light.distant) return distant_factor(p.n, light.half.x);
   return light.disk ? factor_in_frame(p.x, p.n, light.half.x)
                     : detail::rectangle_irradiance_factor(p.x, p.n, light.half);
 }

@@ -45,7 +45,6 @@ class NoShadowMethod : public Method {
   MethodResult run(const MethodInput& input) override {
     StageClock clock;
     const AreaLight light = area_light(input.light);
-    const DiskLight plane = disk_around(input.light);
     const Receivers& receivers = input.receivers;
     MethodResult out;
     out.visibility.assign(receivers.size(), 1.0f);
@@ -54,7 +53,7 @@ class NoShadowMethod : public Method {
       if (receivers.has_normals())
         out.visibility[i] =
             static_cast<float>(fraction_above_horizon(light, receivers.points[i], receivers.normals[i]));
-      else if (is_behind(plane, receivers.points[i]))
+      else if (light.is_behind(receivers.points[i]))
         out.visibility[i] = 0.0f;
     }
     clock.finish("visibility");
@@ -112,6 +111,7 @@ MethodInfo no_shadow_method() {
   return {.name = "none",
           .summary = "no shadows, only the receiver's horizon",
           .takes_rectangles = true,
+          .takes_distant = true,
           .options = {},
           .make = make_alone<NoShadowMethod>};
 }

@@ -188,6 +188,32 @@ TEST(Shade, OfRadiusZeroIsAPointLight) {
   EXPECT_EQ(image.at("G")[1], 0.0f);
 }
 
+// A floor under a sun at elevation e gets E sin e where nothing is in the way, wherever it is; so does it under a
+// point at infinity.
+TEST(Shade, OfADistantLightIsByItsIrradiance) {
+  for (const double angle : {0.0, 0.53, 40.0})
+    for (const double elevation : {25.0, 60.0, 90.0}) {
+      const double e = elevation * kPi / 180.0;
+      const DistantLight sun{.direction = {0, -std::sin(e), std::cos(e)}, .angle_degrees = angle};
+      Scene scene = testing::scene_in_light_frame(0.5, {testing::rectangle(-1, 1, -1, 1, 4)});
+      scene.objects[0].albedo = {0.2, 0.4, 0.8};
+      scene.lights = {{.name = {}, .shape = sun, .radiance = Vec3(3, 5, 7) / irradiance_per_radiance(sun)}};
+      const Vec3 x{0.5, 0, -3}, far{1e7, 0, 1e7}, up{0, 1, 0};
+      const SurfaceBuffer surface = testing::receivers({x, x, far, x}, std::vector<Vec3>{up, up, up, -up}, 2);
+      const Image image = shade_under_one_light(scene, surface, {1.0f, 0.25f, 1.0f, 0.0f});
+      const char* names[] = {"R", "G", "B"};
+      for (int k = 0; k < 3; ++k) {
+        const auto& channel = image.at(names[k]);
+        const double full = scene.objects[0].albedo[k] / kPi * (3 + 2 * k) * std::sin(e);
+        EXPECT_NEAR(channel[0], full, 1e-6 * full) << angle << "° at " << elevation << "°";
+        EXPECT_NEAR(channel[1], 0.25 * full, 1e-6 * full);
+        EXPECT_EQ(channel[2], channel[0]) << "it has no place";
+        EXPECT_EQ(channel[3], 0.0f) << "below the horizon";
+      }
+      EXPECT_EQ(image.at("region"), (testing::Values{-1, -1, -1, -1})) << "nothing is behind it";
+    }
+}
+
 /// Integral of cos θ cos θ' / d² and area fraction above the horizon by the midpoint rule.
 struct RectangleSums {
   double factor = 0.0, above = 0.0;
