@@ -43,10 +43,6 @@ bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
 
 }  // namespace
 
-double receiver_offset(const RayFrame& frame) {
-  return kRayOffset / frame.scale;
-}
-
 void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light,
                  std::span<RayTask> tasks) {
   constexpr std::size_t kRays = RayPacket::kRays;
@@ -70,9 +66,7 @@ bool is_hidden(const Scene& scene, const RayScene& rays, const Receivers& receiv
   const TriangleMesh& mesh = scene.objects[hit->object].mesh;
   const IndexedTriangle& t = mesh.triangles()[hit->face];
   const auto points = mesh.positions();
-  Vec3 x = receivers.points[index];
-  if (receivers.has_normals()) x += receiver_offset(rays.frame()) * receivers.normals[index];
-  return crosses(x, light.disk().center, points[t[0]], points[t[1]], points[t[2]]);
+  return crosses(receivers.points[index], light.disk().center, points[t[0]], points[t[1]], points[t[2]]);
 }
 
 }  // namespace penumbra::detail

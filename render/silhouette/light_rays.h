@@ -19,9 +19,6 @@ struct RayTask {
   std::size_t receiver = 0;  ///< of the tile, for whoever asks
 };
 
-/// The offset of receivers in scene units: that of ray origins (kRayOffset).
-double receiver_offset(const RayFrame& frame);
-
 /// Traces from the surface points, moved by the offset, to the disk.
 ///
 /// Rays are float: where a caster's face is within a rounding of the receiver, either answer may come out.
@@ -30,7 +27,7 @@ double receiver_offset(const RayFrame& frame);
 void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light,
                  std::span<RayTask> tasks);
 
-/// True where a face hides the light's center from the moved receiver, beyond doubt: the first face that a
+/// True where a face hides the light's center from the receiver, beyond doubt: the first face that a
 /// ray meets, by exact predicates.
 bool is_hidden(const Scene& scene, const RayScene& rays, const Receivers& receivers, const UnitLight& light,
                std::uint32_t index);

@@ -37,8 +37,7 @@ std::vector<ReceiverRegion> regions_of(const std::vector<std::uint32_t>& tiles, 
   std::vector<std::vector<ReceiverRegion>> of_tiles(tiles.size());
   tbb::parallel_for(std::size_t{0}, tiles.size(), [&](std::size_t i) {
     std::vector<TileReceiver> receivers;
-    std::vector<std::uint32_t> undecided;
-    source.collect(tiles[i], receivers, undecided);
+    source.collect(tiles[i], receivers);
     std::erase_if(receivers, [&](const TileReceiver& r) { return passes.of[r.index] != passes.now; });
     const auto add = [&](const auto& self, std::span<TileReceiver> part) -> void {
       if (part.size() > kInRegion) {

@@ -80,7 +80,7 @@ SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
   Passes passes =
       in_arena([&] { return make_passes(lit, edges, merged, options.tolerance, receivers.size()); });
   Tiles tiles(groups, progress);
-  const ReceiverSource source(receivers, groups, rays.frame(), light, options.horizon, out);
+  const ReceiverSource source(receivers, groups, light, options.horizon, out);
   const auto band_of = [&](const std::vector<std::uint32_t>& some) {
     if (passes.now < passes.last()) return make_merged_band(lit, *merged, *passes.levels[passes.now]);
     std::vector<ReceiverRegion> regions;

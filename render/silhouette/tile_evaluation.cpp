@@ -34,15 +34,12 @@ void add_task(std::vector<RayTask>& tasks, std::uint32_t index, const glm::dvec2
 }  // namespace
 
 std::uint32_t Evaluation::tile(std::size_t group, Workspace& w) const {
-  w.undecided.clear();
-  const std::size_t behind = source_.collect(group, w.tile, w.undecided);
+  const std::size_t behind = source_.collect(group, w.tile);
   if (passes_.now > 0) {
     std::erase_if(w.tile, [&](const TileReceiver& r) { return passes_.of[r.index] != passes_.now; });
   } else {
     w.counts.receivers += w.tile.size();
     w.counts.behind_light += behind;
-    auto& unknown = options_.integrate ? w.fallback : w.open;
-    unknown.insert(unknown.end(), w.undecided.begin(), w.undecided.end());
   }
   w.later = 0;
   if (!w.tile.empty()) part(w.tile, w);
@@ -198,7 +195,7 @@ void Evaluation::evaluate(std::size_t first, std::size_t last, const EdgeList& l
 void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
   const TileReceiver& r = w.receivers[i];
   if (!options_.integrate && list.size() > kMostToCertify) return w.open.push_back(r.index);
-  project_edges(list, r.x, r.horizon, slack_, w.projected);
+  project_edges(list, r.x, r.horizon, rounding_, w.projected);
   w.counts.projected_edges += list.size();
   judge(i, w);
 }
@@ -207,7 +204,7 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<NodeMask>& lis
   const TileReceiver& r = w.receivers[i];
   const std::size_t most = options_.integrate ? blocks_.count() : kMostToCertify / BandTree::kFanOut;
   if (!blocks_.test_edges(tree_, list, r, most, w.projected.tested)) return w.open.push_back(r.index);
-  project_edges(band_, w.projected.tested, r.x, r.horizon, slack_, w.projected);
+  project_edges(band_, w.projected.tested, r.x, r.horizon, rounding_, w.projected);
   w.counts.projected_edges += BandTree::kFanOut * w.projected.tested.looked_into;
   judge(i, w);
 }
@@ -216,7 +213,7 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<NodeMask>& lis
 /// nothing is certified there. Of merged faces some may look the other way than their patch does.
 bool Evaluation::is_certain(std::size_t i, const DiskPart& part, Workspace& w) const {
   if (!w.projected.certain || part.is_cut()) return false;
-  return !band_.is_merged() || w.uncertain.are_none(w.receivers[i], slack_);
+  return !band_.is_merged() || w.uncertain.are_none(w.receivers[i], rounding_.slack);
 }
 
 /// What a receiver sees, integrated; or the certificate.

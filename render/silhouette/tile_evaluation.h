@@ -41,9 +41,8 @@ struct Workspace {
   ClippedSegments clipped;
   VisibleArea visible_area;
   std::vector<RayTask> tasks, second_tasks;
-  std::vector<std::uint32_t> undecided;  ///< receivers of the tile
-  double sliver = 0.0;                   ///< of the receivers at hand, see VisibleArea::compute
-  std::uint32_t later = 0;               ///< passes that some of the tile's receivers are left to, as bits
+  double sliver = 0.0;      ///< of the receivers at hand, see VisibleArea::compute
+  std::uint32_t later = 0;  ///< passes that some of the tile's receivers are left to, as bits
   std::vector<std::uint32_t> fallback, open;
   SilhouetteCounts counts;
 
@@ -70,7 +69,7 @@ class Evaluation {
         light_(light),
         options_(options),
         source_(source),
-        slack_(certificate_slack(band_.extent)),
+        rounding_{certificate_slack(band_.extent), band_.is_merged() ? 0.0 : band_.extent},
         passes_(passes),
         out_(out) {}
 
@@ -121,7 +120,7 @@ class Evaluation {
   const UnitLight& light_;
   const SilhouetteOptions& options_;
   const ReceiverSource& source_;
-  const double slack_;
+  const Rounding rounding_;
   Passes& passes_;
   SilhouetteResult& out_;
 };

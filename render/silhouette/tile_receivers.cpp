@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "render/silhouette/light_rays.h"
 #include "render/support/vector_clones.h"
 
 namespace penumbra::detail {
 
 ReceiverSource::ReceiverSource(const Receivers& receivers, const ReceiverGroups& groups,
-                               const RayFrame& frame, const UnitLight& light, bool horizon,
-                               SilhouetteResult& out)
+                               const UnitLight& light, bool horizon, SilhouetteResult& out)
     : receivers_(receivers),
       groups_(groups),
       light_(light),
-      offset_(receivers.has_normals() ? receiver_offset(frame) : 0.0),
       horizon_(horizon && receivers.has_normals()),
       out_(out) {}
 
@@ -24,14 +21,12 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::uint32_t index,
   if (!receivers_.is_present(index)) return Kind::kAbsent;
   const Vec3& point = receivers_.points[index];
   const Vec3 normal = receivers_.has_normals() ? receivers_.normals[index] : Vec3(0.0);
-  const Vec3 x = light_.point(point + offset_ * normal);
-  // Where the moved point is far in front, so is the point itself; the exact predicate is not asked.
-  if (!(x.z > 2.0 * offset_ * light_.per_radius()) && is_behind(light_.disk(), point)) {
+  const Vec3 x = light_.point(point);
+  if (!(x.z > 0.0)) {
     out_.visibility[index] = 0.0f;
     out_.region[index] = 2;
     return Kind::kBehindLight;
   }
-  if (!(x.z > 0.0)) return Kind::kUndecided;
   const Vec3 n = light_.direction(normal);
   // The center's height over the tangent plane, and how far the plane falls or rises across the disk.
   const double center = -glm::dot(n, x), fall2 = n.x * n.x + n.y * n.y;
@@ -51,14 +46,12 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::uint32_t index,
   return Kind::kReceiver;
 }
 
-std::size_t ReceiverSource::collect(std::size_t group, std::vector<TileReceiver>& receivers,
-                                    std::vector<std::uint32_t>& undecided) const {
+std::size_t ReceiverSource::collect(std::size_t group, std::vector<TileReceiver>& receivers) const {
   receivers.clear();
   std::size_t behind = 0;
   groups_.for_each(group, [&](std::uint32_t index) {
     const Kind kind = add(index, receivers);
     behind += kind == Kind::kBehindLight ? 1 : 0;
-    if (kind == Kind::kUndecided) undecided.push_back(index);
   });
   return behind;
 }

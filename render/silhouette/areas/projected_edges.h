@@ -37,12 +37,12 @@ struct ProjectedEdges {
   std::vector<Segment> crossing;
 };
 
-/// The edges of a list. Replaces `out`. `slack`: certificate_slack. Cost: that of `test_edges`, and some 60
+/// The edges of a list. Replaces `out`. Cost: that of `test_edges`, and some 60
 /// flops an edge that it leaves.
-void project_edges(const EdgeList& list, const Vec3& x, const Chord& horizon, double slack,
+void project_edges(const EdgeList& list, const Vec3& x, const Chord& horizon, const Rounding& rounding,
                    ProjectedEdges& out);
 /// The edges of the band that passed the edge test of EdgeBlocks. `tested` may be that of `out`.
 void project_edges(const Band& band, const TestedEdges& tested, const Vec3& x, const Chord& horizon,
-                   double slack, ProjectedEdges& out);
+                   const Rounding& rounding, ProjectedEdges& out);
 
 }  // namespace penumbra::detail

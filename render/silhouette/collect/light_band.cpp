@@ -12,23 +12,18 @@ namespace {
 // Speed. Items that a task makes: vertices, edges, blocks. Seen in the benchmark `silhouette`, stage band.
 constexpr std::size_t kVerticesPerTask = 4096, kEdgesPerTask = 1024, kBlocksPerTask = 128;
 
-/// Tells whether a point is in front of the plane z = depth, where casters end.
-class FrontSide {
- public:
-  explicit FrontSide(double depth) : depth_(depth) {}
-  bool operator()(const Vec3& p) const { return p.z > depth_; }
-  /// Where the segment between a point in front and one behind meets the plane; the same bits for both
-  /// directions.
-  Vec3 cut(const Vec3& a, const Vec3& b) const {
-    const Vec3& front = (*this)(a) ? a : b;
-    const Vec3& back = (*this)(a) ? b : a;
-    const double t = (front.z - depth_) / (front.z - back.z);
-    return {front.x + t * (back.x - front.x), front.y + t * (back.y - front.y), depth_};
-  }
+/// In front of the light's plane, in the light's frame.
+bool is_in_front(const Vec3& p) {
+  return p.z > 0.0;
+}
 
- private:
-  double depth_;
-};
+/// Where the segment between a point in front and one behind meets the light's plane; the same bits for both directions.
+Vec3 cut_at_light(const Vec3& a, const Vec3& b) {
+  const Vec3& front = is_in_front(a) ? a : b;
+  const Vec3& back = is_in_front(a) ? b : a;
+  const double t = front.z / (front.z - back.z);
+  return {front.x + t * (back.x - front.x), front.y + t * (back.y - front.y), 0.0};
+}
 
 /// Takes positions to the light's frame.
 struct ToFrame {
@@ -43,9 +38,8 @@ class LitCaster {
   LitCaster(const LitScene& lit, std::size_t object)
       : mesh_(lit.scene.objects[object].mesh),
         to_frame_{lit.light},
-        in_front_(lit.depth),
         extent_(lit.extent),
-        all_in_front_(in_front_(lit.boxes[object].low)) {
+        all_in_front_(is_in_front(lit.boxes[object].low)) {
     if (!all_in_front_) find_front();
   }
 
@@ -66,8 +60,8 @@ class LitCaster {
   BandEdge edge(EdgeId id) const {
     BandEdge e = mesh_.edge(id, to_frame_, extent_);
     const Vec3 a = e.a, b = e.b;
-    if (!in_front_(a)) e.a = in_front_.cut(a, b);
-    if (!in_front_(b)) e.b = in_front_.cut(a, b);
+    if (!is_in_front(a)) e.a = cut_at_light(a, b);
+    if (!is_in_front(b)) e.b = cut_at_light(a, b);
     return e;
   }
 
@@ -78,7 +72,7 @@ class LitCaster {
     BandEdge e{Vec3(0.0), Vec3(0.0), mesh_.plane(face, to_frame_, extent_), kNoFace};
     for (int k = 0; k < 3; ++k) {
       const Vec3 &p = corners[k], &q = corners[(k + 1) % 3];
-      if (in_front_(p) != in_front_(q)) (in_front_(p) ? e.a : e.b) = in_front_.cut(p, q);
+      if (is_in_front(p) != is_in_front(q)) (is_in_front(p) ? e.a : e.b) = cut_at_light(p, q);
     }
     return e;
   }
@@ -89,13 +83,12 @@ class LitCaster {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, front_.size(), kVerticesPerTask),
                       [&](const auto& range) {
                         for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          front_[i] = in_front_(to_frame_(mesh_.positions[i]));
+                          front_[i] = is_in_front(to_frame_(mesh_.positions[i]));
                       });
   }
 
   MeshArrays mesh_;
   ToFrame to_frame_;
-  FrontSide in_front_;
   double extent_;
   bool all_in_front_;
   /// For each vertex whether it is in front; empty where all are.
@@ -105,15 +98,15 @@ class LitCaster {
 /// One an object; none for objects that do not cast.
 using LitCasters = std::vector<std::optional<LitCaster>>;
 
-/// A face that crosses the plane where casters end.
+/// A face that crosses the light's plane.
 struct CutFace {
   std::uint32_t object;
   FaceId face;
 };
 
-/// Removes edges that lie behind the plane where casters end, and returns the faces that cross it. Cost
+/// Removes edges that lie behind the light's plane, and returns the faces that cross it. Cost
 /// O(faces) of casters that are not wholly in front of it.
-std::vector<CutFace> cut_at_light(const LitCasters& casters, std::vector<SceneEdge>& edges) {
+std::vector<CutFace> drop_behind(const LitCasters& casters, std::vector<SceneEdge>& edges) {
   const auto is_cut = [](const auto& c) { return c && !c->all_in_front(); };
   std::vector<CutFace> cuts;
   if (std::ranges::none_of(casters, is_cut)) return cuts;
@@ -154,7 +147,7 @@ Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<con
   std::vector<SceneEdge> edges =
       regions.empty() ? scene_edges.band_of(lit.light.disk(), lit.cannot_occlude)
                       : scene_edges.band_for(regions, lit.scene, lit.light.disk(), lit.cannot_occlude);
-  const std::vector<CutFace> cuts = cut_at_light(casters, edges);
+  const std::vector<CutFace> cuts = drop_behind(casters, edges);
   band.cut_edges = cuts.size();
 
   // All of them in the light's frame.

@@ -26,14 +26,13 @@ LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const Sc
     : scene(lit_scene),
       light(unit_light),
       cannot_occlude(flags),
-      depth(kLightOffset / edges.scale() * light.per_radius()),
       boxes(scene.objects.size()),
       extent(extent_of(scene, receivers, light)) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     if (!object.casts || object.mesh.empty() || (!cannot_occlude.empty() && cannot_occlude[i])) continue;
     boxes[i] = edges.points(i).box_in(light);
-    all_in_front = all_in_front && boxes[i].low.z > depth;
+    all_in_front = all_in_front && boxes[i].low.z > 0.0;
   }
 }
 

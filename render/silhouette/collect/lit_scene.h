@@ -1,7 +1,6 @@
 // Silhouette method, step band: what casts under a light, in the light's frame.
 //
-// In: a scene, a light, the scene's edges. Out: the casters' boxes, the extent of the scene, and the plane
-// behind which nothing casts.
+// In: a scene, a light, the scene's edges. Out: the casters' boxes and the extent of the scene.
 #pragma once
 
 #include <span>
@@ -24,13 +23,11 @@ struct LitScene {
   const Scene& scene;
   const UnitLight& light;
   std::span<const char> cannot_occlude;
-  /// Casters end at the plane z = depth, where rays end as well (kLightOffset).
-  double depth;
   /// One an object; empty for objects that do not cast.
   std::vector<Bounds> boxes;
   /// The largest absolute coordinate of the whole scene, receivers included; at least 1.
   double extent = 1.0;
-  /// All casters lie in front of that plane.
+  /// All casters lie in front of the light's plane.
   bool all_in_front = true;
 
   bool casts(std::size_t object) const { return !boxes[object].empty(); }

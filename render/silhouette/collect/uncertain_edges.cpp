@@ -73,16 +73,14 @@ bool is_certainly_no_silhouette(const Band& band, std::size_t i, const TileRecei
 
   // It lies below the tangent plane, stands for itself, or lies above the receiver.
   if (is_below(e.a, sides.margin + slack) && is_below(e.b, sides.margin + slack)) return true;
-  if (sides.margin <= slack * kStraight) return !project_edge(e, x, slack).near;
+  if (sides.margin <= slack * kStraight) return !project_segment(e.a, e.b, x, {slack}).near;
   if (std::min(e.a.z, e.b.z) - sides.margin > x.z) return true;
 
   // What is seen of it lies within its margin: as if it were an edge of one face, and the disk wider.
   const double below = x.z - std::max(e.a.z, e.b.z) - sides.margin;
   if (!(below > 0.0)) return false;
   const double steep = (glm::length(glm::dvec2(x)) + 1.0) / x.z;
-  const FacePlane unknown{Vec3(0.0), 0.0, std::numeric_limits<double>::infinity()};
-  return !project_edge({e.a, e.b, unknown, unknown}, x, slack + sides.margin * (1.0 + steep) * x.z / below)
-              .near;
+  return !project_segment(e.a, e.b, x, {slack + sides.margin * (1.0 + steep) * x.z / below}).near;
 }
 
 void UncertainEdges::begin_tile(const Band& band, const std::vector<NodeMask>& list, const Shaft& shaft) {

@@ -2,11 +2,13 @@
 //
 // An edge a → b, seen from x, is a line across the disk. The number of faces that hide a point of the disk
 // jumps at that line: by the faces on the edge's left minus the faces on its right (`jump_at`). On which
-// side a face lies is the sign of its plane's value at x. This holds for meshes that are closed, open, not
-// manifold or wound inconsistently. An edge that is no silhouette from x has a jump of 0.
+// side a face lies is the sign of its plane's value at x; a face in whose plane x lies, as far as double can
+// tell, hides nothing and counts on neither side. This holds for meshes that are closed, open, not manifold or
+// wound inconsistently. An edge that is no silhouette from x has a jump of 0.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <span>
@@ -30,7 +32,7 @@ struct FacePlane {
   double value(const Vec3& x) const { return normal.x * x.x + normal.y * x.y + normal.z * x.z + offset; }
 };
 
-/// Stands for the right face of a boundary edge: certain to be on neither side.
+/// Stands for the right face of a boundary edge: on neither side.
 inline const FacePlane kNoFace{Vec3(0.0), 0.0, -1.0};
 
 /// Two cache lines; the ends are in the first. Members have no initializers, so that the memory of a band is
@@ -44,9 +46,33 @@ struct alignas(64) BandEdge {
 };
 static_assert(sizeof(BandEdge) == 128);
 
-/// Faces on the left minus faces on the right of a → b, seen from x: -2 to 2.
-inline int jump_at(const BandEdge& e, const Vec3& x) {
-  return (e.left.value(x) > 0.0 ? 1 : -1) + (e.has_right() ? (e.right.value(x) > 0.0 ? -1 : 1) : 0);
+/// What rounding leaves open, in a frame.
+struct Rounding {
+  /// The certificate's margin at the disk, light radii (certificate_slack).
+  double slack;
+  /// The largest coordinate, M above; 0 where planes are not those of single faces, so that nothing but their own
+  /// tolerance is known of them.
+  double extent = 0.0;
+};
+
+/// The side of a face on which x lies: 1 where the face is seen counter-clockwise, -1, or 0 where its plane contains x
+/// as far as double can tell. `a`: a corner of the face.
+///
+/// The plane's tolerance holds for all points up to 4 M away. Of a point at distance d from the corner, n·(x - a) is
+/// off by d/(4 M) of it, and by a rounding of coordinates.
+inline int side_of(const FacePlane& plane, const Vec3& a, const Vec3& x, double extent) {
+  double value = plane.value(x), tolerance = plane.tolerance;
+  if (!(std::abs(value) > tolerance) && extent > 0.0) {
+    const double grain = 0x1p-46 * extent;
+    value = glm::dot(plane.normal, x - a);
+    tolerance = grain + (tolerance - grain) * glm::distance(x, a) / (4.0 * extent);
+  }
+  return std::abs(value) > tolerance ? (value > 0.0 ? 1 : -1) : 0;
+}
+
+/// Faces on the left minus faces on the right of a → b, seen from x: -2 to 2. `extent` as in Rounding.
+inline int jump_at(const BandEdge& e, const Vec3& x, double extent = 0.0) {
+  return side_of(e.left, e.a, x, extent) - (e.has_right() ? side_of(e.right, e.a, x, extent) : 0);
 }
 
 /// The plane of a face with these corners. `extent`: the largest coordinate in the frame, M above.

@@ -20,11 +20,12 @@ using penumbra::testing::random_receivers;
 using penumbra::testing::sphere_band;
 
 /// What is above the horizon of the edges near the disk, by the definition.
-std::vector<Segment> seen_edges(const Band& band, const TileReceiver& r, double slack, bool& certain) {
+std::vector<Segment> seen_edges(const Band& band, const TileReceiver& r, const Rounding& rounding,
+                                bool& certain) {
   std::vector<Segment> out;
   certain = true;
   for (const BandEdge& e : band.edges) {
-    const Projection p = project_edge(e, r.x, slack);
+    const Projection p = project_edge(e, r.x, rounding);
     if (!p.near) continue;
     const bool above = height(r.horizon, p.segment.a) > 0.0 || height(r.horizon, p.segment.b) > 0.0;
     certain = certain && !above;
@@ -63,9 +64,9 @@ TEST(EdgeBlocks, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
           }
         }
       expect_same_places(tested, singly);
-      project_edges(band, tested, receiver.x, receiver.horizon, 1e-6, projected);
+      project_edges(band, tested, receiver.x, receiver.horizon, {1e-6}, projected);
       bool certain = false;
-      const std::vector<Segment> segments = seen_edges(band, receiver, 1e-6, certain);
+      const std::vector<Segment> segments = seen_edges(band, receiver, {1e-6}, certain);
       expect_same_segments(projected.segments, segments);
       if (!receiver.horizon_cuts) {
         ASSERT_EQ(projected.certain, certain);

@@ -61,18 +61,18 @@ TEST(EdgeList, VectorsAgreeWithOneEdgeAtATimeAndLoseNothing) {
         if (tested.jumps[i] != TestedEdges::kUnsure) {
           ASSERT_EQ(tested.jumps[i], jump_at(e, x));
         }
-        const Projection p = project_edge(e, x, 1e-6);
+        const Projection p = project_edge(e, x, {1e-6});
         found += p.near ? 1 : 0;
         if (p.near && p.segment.jump != 0) segments.push_back(p.segment);
       }
-      project_edges(l, x, no_horizon(), 1e-6, projected);
+      project_edges(l, x, no_horizon(), {1e-6}, projected);
       expect_same_segments(projected.segments, segments);
       ASSERT_EQ(projected.certain, found == 0);
       for (std::size_t i = 0; i < projected.segments.size(); ++i) {
         const Segment& s = projected.segments[i];
         ASSERT_TRUE(i >= projected.inside || (glm::dot(s.a, s.a) < 1.0 && glm::dot(s.b, s.b) < 1.0));
       }
-      for (const BandEdge& e : band.edges) expected += project_edge(e, x, 1e-6).near ? 1 : 0;
+      for (const BandEdge& e : band.edges) expected += project_edge(e, x, {1e-6}).near ? 1 : 0;
       ASSERT_EQ(found, expected) << "round " << round;
       kept += tested.count, near += found, listed += l.size();
     }

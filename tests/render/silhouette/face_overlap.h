@@ -93,7 +93,6 @@ inline LitShare certified_share_of_free(const Scene& scene, const RayScene& rays
                                         const SurfaceBuffer& surface, const std::vector<std::int8_t>& region,
                                         std::size_t work) {
   const FaceOverlap faces(scene);
-  const double offset = detail::receiver_offset(rays.frame());
   std::vector<std::uint32_t> open, lit;
   for (std::uint32_t i = 0; i < region.size(); ++i)
     if (surface.hit(i) && region[i] <= 0) (region[i] == 0 ? lit : open).push_back(i);
@@ -101,9 +100,7 @@ inline LitShare certified_share_of_free(const Scene& scene, const RayScene& rays
   std::shuffle(open.begin(), open.end(), engine);
   std::shuffle(lit.begin(), lit.end(), engine);
   const std::size_t most = std::max<std::size_t>(200, work / std::max<std::size_t>(1, faces.faces()));
-  const auto overlapped = [&](std::uint32_t i) {
-    return faces.any(surface.position[i] + offset * surface.normal[i]);
-  };
+  const auto overlapped = [&](std::uint32_t i) { return faces.any(surface.position[i]); };
   const auto count = [&](const std::vector<std::uint32_t>& pixels) {
     const auto end = pixels.begin() + static_cast<std::ptrdiff_t>(std::min(most, pixels.size()));
     return static_cast<std::size_t>(std::count_if(pixels.begin(), end, overlapped));

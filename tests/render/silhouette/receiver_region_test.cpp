@@ -49,7 +49,7 @@ TEST(ReceiverRegion, LoseNothingThatAReceiverSees) {
       for (const TileReceiver& r : receivers)
         for (const BandEdge& e : all.edges) {
           const bool below = glm::dot(r.normal, e.a - r.x) < 0.0 && glm::dot(r.normal, e.b - r.x) < 0.0;
-          if (below || !project_edge(e, r.x, certificate_slack(all.extent)).near) continue;
+          if (below || !project_edge(e, r.x, {certificate_slack(all.extent)}).near) continue;
           ++seen;
           ASSERT_TRUE(keys.contains(key(e))) << name;
         }

@@ -97,14 +97,13 @@ bool certificates_hold(const Scene& scene, Certified& counts) {
   const auto o = trace_reference(view.rays, testing::light_of(scene), view.surface.receivers(),
                                  testing::every_pixel(view.surface), {.samples = 64, .seed = 7}, true)
                      .unoccluded;
-  const double offset = detail::receiver_offset(view.rays.frame());
   for (std::size_t i = 0; i < o.size(); ++i) {
     if (r.region[i] < 0 || is_behind(testing::light_of(scene), view.surface.position[i])) continue;
     const bool is_lit = r.region[i] == 0;
     ++(is_lit ? counts.lit : counts.umbra);
     if (o[i] == (is_lit ? 1.0f : 0.0f)) continue;
     ++counts.suspects;
-    const Vec3 x = view.surface.position[i] + offset * view.surface.normal[i];
+    const Vec3 x = view.surface.position[i];
     if (!confirmed(scene, x, is_lit)) continue;
     std::printf("pixel %zu region %d O %g\n", i, int(r.region[i]), o[i]);
     return false;

@@ -32,10 +32,8 @@ SurfaceBuffer grid(double half, double z, int side) {
   return testing::receivers(points, kToLight, side);
 }
 
-/// The chord of the plane through edge a → b as the moved receiver sees it; the side of `inside` is kept.
-Chord chord_of_edge(const Scene& scene, const Vec3& receiver, const Vec3& a, const Vec3& b,
-                    const Vec3& inside) {
-  const Vec3 x = receiver + detail::receiver_offset(ray_frame(scene)) * kToLight;
+/// The chord of the plane through edge a → b as receiver x sees it; the side of `inside` is kept.
+Chord chord_of_edge(const Scene& scene, const Vec3& x, const Vec3& a, const Vec3& b, const Vec3& inside) {
   Vec3 n = edge_plane(x, a, b);
   if (glm::dot(n, inside - x) < 0.0) n = -n;
   return chord_of_plane(n, x, testing::light_of(scene).radius);
@@ -90,10 +88,8 @@ TEST(Silhouette, TheHorizonIsPartOfTheBoundary) {
   const Vec3 normal = glm::normalize(Vec3(-0.95, 0.1, -0.2));
   surface.normal.assign(surface.size(), normal);
   const SilhouetteResult r = see(scene, surface);
-  const double offset = detail::receiver_offset(ray_frame(scene));
   std::size_t cut = 0;
-  const double error = worst(surface, r.visibility, [&](const Vec3& p) {
-    const Vec3 x = p + offset * normal;
+  const double error = worst(surface, r.visibility, [&](const Vec3& x) {
     Vec3 n = edge_plane(x, a, b);
     if (glm::dot(n, Vec3(0, 60, 2) - x) < 0.0) n = -n;
     const Chord edge = chord_of_plane(n, x, 2.0), horizon = chord_of_plane(normal, x, 2.0);

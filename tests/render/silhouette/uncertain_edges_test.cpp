@@ -57,7 +57,7 @@ TEST(UncertainEdges, CertificatesHoldToTheLast) {
         const TileReceiver r = receiver_at(at(outside));
         ++checked;
         for (const BandEdge& e : exact.edges) {
-          const Projection p = project_edge(e, r.x, 0.0);
+          const Projection p = project_edge(e, r.x, {0.0});
           ASSERT_FALSE(p.near && p.segment.jump != 0) << name << ", level of " << level.edges.size();
         }
       }
