@@ -18,8 +18,8 @@ constexpr std::size_t kPerBox = 64;
 constexpr double kRounding = 1e-12;  // in a frame of size 1: a box that is nearer by less is not looked into
 constexpr double kOnPlane = 1e-9;    // what rounding leaves between a face and its own plane
 
-/// In front of the plane at least this far is every point of the disk.
-double nearest_of_disk(const DiskLight& light, const Vec3& normal, double center_in_front) {
+/// In front of the plane at least this far is every point of the disk; of a distant light so far at unit distance.
+double nearest_of_disk(const CircularLight& light, const Vec3& normal, double center_in_front) {
   const double along = glm::dot(normal, unit(light.normal));
   return center_in_front - light.radius * std::sqrt(std::max(0.0, 1.0 - along * along));
 }
@@ -98,12 +98,19 @@ void CasterPlanes::set_receivers(const ReceiverCloud& receivers) {
   });
 }
 
-bool CasterPlanes::cannot_occlude(const DiskLight& world, double slack) const {
-  const DiskLight light{(world.center - origin_) * scale_, world.normal, world.radius * scale_};
+bool CasterPlanes::cannot_occlude(const CircularLight& world, double slack) const {
+  CircularLight light = world;
+  if (light.is_distant()) {
+    light.center = -unit(light.normal);
+  } else {
+    light.center = (light.center - origin_) * scale_;
+    light.radius *= scale_;
+  }
   std::vector<char> separated(faces_, 0);
   for (const Plane& plane : planes_) {
     if (plane.nearest < -slack) continue;
-    if (nearest_of_disk(light, plane.normal, plane.in_front(light.center)) < 0.0) continue;
+    const double in_front = glm::dot(plane.normal, light.center) - light.weight * plane.offset;
+    if (nearest_of_disk(light, plane.normal, in_front) < 0.0) continue;
     for (std::size_t f = 0; f < faces_; ++f) separated[f] = separated[f] || plane.behind[f];
   }
   return !planes_.empty() &&
@@ -127,7 +134,7 @@ std::vector<glm::vec4> ray_origins(const RayFrame& frame, const Receivers& recei
 
 }  // namespace
 
-std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const DiskLight& light,
+std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const CircularLight& light,
                                                    const RayFrame& frame, const Receivers& receivers) {
   constexpr std::size_t kSome = 1009;  // a prime: spread over rows and columns
   std::vector<char> out(scene.objects.size(), 0);

@@ -44,7 +44,7 @@ class CasterPlanes {
   void set_receivers(const ReceiverCloud& receivers);
   /// True where every face is separated from the light and from the receivers by one of the planes; receivers
   /// may lie behind it by `slack`, in the frame. Before receivers are set there are none. Cost O(1).
-  bool cannot_occlude(const DiskLight& light, double slack = 0.0) const;
+  bool cannot_occlude(const CircularLight& light, double slack = 0.0) const;
 
  private:
   struct Plane {
@@ -64,7 +64,7 @@ class CasterPlanes {
 
 /// One flag an object: casters that hide nothing from the receivers, which are moved off their surfaces as
 /// the origins of rays are. Cost O(objects), and O(pixels) where a floor, wall or room casts.
-std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const DiskLight& light,
+std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const CircularLight& light,
                                                    const RayFrame& frame, const Receivers& receivers);
 
 }  // namespace penumbra::detail

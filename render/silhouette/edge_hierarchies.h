@@ -9,12 +9,12 @@
 
 namespace penumbra::detail {
 
-/// Of a scene's casters, in the frame of all objects. Each is made when it is first asked for, on the threads that are given.
+/// Of a scene's casters, in the frame of rays. Each is made when it is first asked for, on the threads that are given.
 /// Not for several threads at once.
 class EdgeHierarchies {
  public:
   /// Refers to the scene.
-  explicit EdgeHierarchies(const Scene& scene) : scene_(scene), frame_(frame_of_all_objects(scene)) {}
+  explicit EdgeHierarchies(const Scene& scene) : scene_(scene), frame_(ray_frame(scene)) {}
 
   const RayFrame& frame() const { return frame_; }
   const SceneEdges& edges(tbb::task_arena& threads) { return once(edges_, threads); }

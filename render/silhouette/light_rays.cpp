@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "mesh/vectors.h"
 #include "penumbra/volumes/predicates/predicates.h"
 #include "render/rays/ray_packets.h"
 #include "render/rays/ray_start.h"
@@ -16,21 +17,28 @@ struct LocalRay {
   glm::vec3 from, way;
 };
 
-LocalRay local_ray(const RayFrame& frame, const Receivers& receivers, std::uint32_t index, const Vec3& aim) {
+/// `aim`: a point of the unit disk.
+LocalRay local_ray(const RayFrame& frame, const Receivers& receivers, std::uint32_t index,
+                   const UnitLight& light, const glm::dvec2& aim) {
   const glm::vec3 from = ray_start(receivers, index, frame).origin;
-  return {from, glm::vec3(frame.to_local(aim)) - from};
+  const CircularLight& disk = light.light();
+  if (!disk.is_distant())
+    return {from, glm::vec3(frame.to_local(disk.center + light.offset_on_disk(aim))) - from};
+  constexpr float kBeyondCasters = 4.0f;
+  const Vec3 way = light.offset_on_disk(aim) - unit(disk.normal);
+  return {from, (kBeyondCasters + glm::length(from)) * glm::vec3(way)};
 }
 
 void set_ray(const RayTask& task, const RayFrame& frame, const Receivers& receivers, const UnitLight& light,
              std::size_t k, RayPacket& packet) {
-  LocalRay ray = local_ray(frame, receivers, task.index, light.world_on_disk(task.aim));
+  LocalRay ray = local_ray(frame, receivers, task.index, light, task.aim);
   if (task.step_back) {
     const glm::vec3 step = (kStepBack / glm::length(ray.way)) * ray.way;
     ray.from -= step, ray.way += step;
   }
   packet.from_x[k] = ray.from.x, packet.from_y[k] = ray.from.y, packet.from_z[k] = ray.from.z;
   packet.way_x[k] = ray.way.x, packet.way_y[k] = ray.way.y, packet.way_z[k] = ray.way.z;
-  packet.end[k] = ray_end(-glm::dot(ray.way, glm::vec3(light.normal())));
+  packet.end[k] = ray_end(-glm::dot(ray.way, glm::vec3(light.world_direction({0.0, 0.0, 1.0}))));
 }
 
 /// The open segment p q passes through the inside of triangle (a, b, c).
@@ -60,13 +68,15 @@ void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLig
 
 bool is_hidden(const Scene& scene, const RayScene& rays, const Receivers& receivers, const UnitLight& light,
                std::uint32_t index) {
-  const LocalRay ray = local_ray(rays.frame(), receivers, index, light.disk().center);
+  const LocalRay ray = local_ray(rays.frame(), receivers, index, light, glm::dvec2(0.0));
   const std::optional<RayHit> hit = first_hit(rays, ray.from, ray.way, 1.0f);
   if (!hit) return false;
   const TriangleMesh& mesh = scene.objects[hit->object].mesh;
   const IndexedTriangle& t = mesh.triangles()[hit->face];
   const auto points = mesh.positions();
-  return crosses(receivers.points[index], light.disk().center, points[t[0]], points[t[1]], points[t[2]]);
+  const Vec3& x = receivers.points[index];
+  const Vec3 end = light.light().is_distant() ? x + Vec3(ray.way) / rays.frame().scale : light.light().center;
+  return crosses(x, end, points[t[0]], points[t[1]], points[t[2]]);
 }
 
 }  // namespace penumbra::detail

@@ -15,13 +15,13 @@ constexpr std::size_t kInRegion = 4;  // receivers
 Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double tolerance,
                    std::size_t receivers) {
   Passes out;
-  if (!merged || merged->levels().empty() || !lit.all_in_front) return out;
-  const auto size = static_cast<double>(edges.size_of_band(lit.light.disk()));
+  if (!merged || merged->levels().empty() || !lit.all_in_front || lit.light.is_projective()) return out;
+  const auto size = static_cast<double>(edges.size_of_band(lit.light.light()));
   for (auto at = merged->levels().rbegin(); at != merged->levels().rend(); ++at) {  // coarsest first
     const MergedLevel& level = *at;
     const double in_radii = level.deviation * lit.light.per_radius();
     if (in_radii > tolerance) continue;
-    const std::size_t blocks = merged->blocks_of(level, lit.light.disk(), lit.cannot_occlude).size();
+    const std::size_t blocks = merged->blocks_of(level, lit.light.light(), lit.cannot_occlude).size();
     const double worth = level.deviation > 0.0 ? kMostMerged : kMostMergedFlat;
     if (static_cast<double>(blocks * MergedBlock::kEdges) > worth * size) break;
     out.levels.push_back(&level);

@@ -50,8 +50,11 @@ Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdg
 /// Groups of receivers, and for which passes they wait.
 class Tiles {
  public:
-  Tiles(const ReceiverGroups& groups, const Progress& progress)
-      : waiting_(groups.count(), 1u), progress_(progress) {}
+  /// Some groups of so many; they wait for the first pass.
+  Tiles(std::size_t count, const std::vector<std::uint32_t>& groups, const Progress& progress)
+      : waiting_(count, 0u), size_(groups.size()), progress_(progress) {
+    for (const std::uint32_t group : groups) waiting_[group] = 1u;
+  }
 
   /// Those that wait for a pass.
   std::vector<std::uint32_t> waiting_for(int pass) const {
@@ -61,9 +64,7 @@ class Tiles {
     return out;
   }
   /// So few that it is cheaper to look for the edges that matter to them than for all.
-  bool are_few(const std::vector<std::uint32_t>& tiles) const {
-    return tiles.size() <= waiting_.size() / kFewTiles;
-  }
+  bool are_few(const std::vector<std::uint32_t>& tiles) const { return tiles.size() <= size_ / kFewTiles; }
 
   /// Runs `body(tile, workspace)` for some tiles of a pass, reporting progress; it returns for which
   /// passes they wait next. Throws Cancelled.
@@ -78,7 +79,7 @@ class Tiles {
       ++done_;
       if (!progress_) return;
       const std::unique_lock lock(reporting, std::try_to_lock);
-      if (lock && !progress_(static_cast<double>(done_) / static_cast<double>(waiting_.size()))) stop = true;
+      if (lock && !progress_(static_cast<double>(done_) / static_cast<double>(size_))) stop = true;
     };
     threads.execute([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 1), [&](const auto& range) {
@@ -91,7 +92,8 @@ class Tiles {
 
  private:
   static constexpr std::size_t kFewTiles = 32;  // one in so many
-  std::vector<std::uint32_t> waiting_;          ///< passes as bits
+  std::vector<std::uint32_t> waiting_;          ///< one a group: passes as bits
+  std::size_t size_;
   const Progress& progress_;
   std::atomic<std::size_t> done_{0};
 };

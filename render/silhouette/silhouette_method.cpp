@@ -46,14 +46,14 @@ class BySilhouettes : public Method {
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
     MethodResult out;
-    run_on_disk(input, require_disk(input.light, "silhouettes"), hierarchies_, out);
+    see(input, hierarchies_, out);
     out.setup = {{"edge_hierarchy", hierarchies_.milliseconds()}};
     return out;
   }
 
  protected:
-  virtual void run_on_disk(const MethodInput& input, const DiskLight& light,
-                           detail::EdgeHierarchies& hierarchies, MethodResult& out) const = 0;
+  virtual void see(const MethodInput& input, detail::EdgeHierarchies& hierarchies,
+                   MethodResult& out) const = 0;
   const Scene& scene_;
 
  private:
@@ -65,17 +65,16 @@ class SilhouetteMethod : public BySilhouettes {
   using BySilhouettes::BySilhouettes;
 
  private:
-  void run_on_disk(const MethodInput& input, const DiskLight& light, detail::EdgeHierarchies& hierarchies,
-                   MethodResult& out) const override {
+  void see(const MethodInput& input, detail::EdgeHierarchies& hierarchies, MethodResult& out) const override {
     SilhouetteOptions options{.rows = static_cast<int>(integer_of(input.options, "silhouette-rows")),
                               .tolerance = real_of(input.options, "silhouette-tolerance")};
     SilhouetteResult seen =
-        silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers, options,
+        silhouette_visibility(scene_, input.rays, hierarchies, input.light, input.receivers, options,
                               part_of(input.progress, 0.0, input.with_unoccluded ? 0.5 : 1.0));
     if (input.with_unoccluded) {
       options.horizon = false;
-      out.unoccluded = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers, options,
-                                             part_of(input.progress, 0.5, 1.0))
+      out.unoccluded = silhouette_visibility(scene_, input.rays, hierarchies, input.light, input.receivers,
+                                             options, part_of(input.progress, 0.5, 1.0))
                            .visibility;
     }
     out.visibility = std::move(seen.visibility);
@@ -90,14 +89,14 @@ class RaysMethod : public BySilhouettes {
   using BySilhouettes::BySilhouettes;
 
  private:
-  void run_on_disk(const MethodInput& input, const DiskLight& light, detail::EdgeHierarchies& hierarchies,
-                   MethodResult& out) const override {
-    SilhouetteResult seen = silhouette_visibility(scene_, input.rays, hierarchies, light, input.receivers,
-                                                  {.integrate = false}, part_of(input.progress, 0.0, 0.5));
+  void see(const MethodInput& input, detail::EdgeHierarchies& hierarchies, MethodResult& out) const override {
+    SilhouetteResult seen =
+        silhouette_visibility(scene_, input.rays, hierarchies, input.light, input.receivers,
+                              {.integrate = false}, part_of(input.progress, 0.0, 0.5));
     StageClock clock;
     const ReferenceResult traced =
-        trace_reference(input.rays, light, input.receivers, seen.open, sampling_of(input.options), false,
-                        part_of(input.progress, 0.5, 1.0));
+        trace_reference(input.rays, input.light, input.receivers, seen.open, sampling_of(input.options),
+                        false, part_of(input.progress, 0.5, 1.0));
     for (std::size_t i = 0; i < seen.open.size(); ++i) seen.visibility[seen.open[i]] = traced.visibility[i];
     seen.counts.rays += traced.rays;
     clock.finish("rays");
@@ -130,6 +129,7 @@ std::vector<OptionSchema> silhouette_options() {
 MethodInfo silhouette_method() {
   return {.name = "silhouette",
           .summary = "exact areas between the edges that each receiver sees, without noise",
+          .takes_distant = true,
           .certifies = true,
           .gives_unoccluded = true,
           .options = silhouette_options(),
@@ -139,6 +139,7 @@ MethodInfo silhouette_method() {
 MethodInfo rays_method() {
   return {.name = "rays",
           .summary = "stratified rays, only where nothing is certified",
+          .takes_distant = true,
           .certifies = true,
           .options = sampling_options(),
           .make = [](const Scene& objects) { return std::make_unique<RaysMethod>(objects); }};

@@ -10,6 +10,7 @@
 #include "render/rays/reference.h"
 #include "render/receivers/occluding_casters.h"
 #include "render/silhouette/edge_hierarchies.h"
+#include "render/silhouette/receiver_shells.h"
 #include "render/silhouette/silhouette_method.h"
 #include "render/silhouette/tile_evaluation.h"
 
@@ -30,9 +31,120 @@ SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
   return a;
 }
 
-void trace_fallback(const RayScene& rays, const DiskLight& light, const Receivers& receivers,
+/// One call: what its shells of receivers share.
+class Call {
+ public:
+  Call(const Scene& scene, const RayScene& rays, EdgeHierarchies& hierarchies, const CircularLight& light,
+       const Receivers& receivers, const SilhouetteOptions& options, SilhouetteResult& out)
+      : scene_(scene),
+        rays_(rays),
+        frame_(hierarchies.frame()),
+        merged_(options.integrate && options.tolerance > 0.0 ? &hierarchies.merged(rays.arena()) : nullptr),
+        edges_(hierarchies.edges(rays.arena())),
+        light_(light),
+        receivers_(receivers),
+        options_(options),
+        out_(out) {}
+
+  void run(const Progress& progress);
+  /// Receivers that rays have to see, ascending; stages and counts are complete but for them.
+  std::vector<std::uint32_t> finish();
+
+ private:
+  void serve(const ReceiverShell& shell, const ReceiverGroups& groups, const Progress& progress);
+  template <class Make>
+  auto in_arena(const Make& make) {
+    return rays_.arena().execute(make);
+  }
+  /// Of the casters that may hide something.
+  Bounds casters() const;
+
+  const Scene& scene_;
+  const RayScene& rays_;
+  const RayFrame& frame_;
+  const MergedEdges* merged_;
+  const SceneEdges& edges_;
+  const CircularLight& light_;
+  const Receivers& receivers_;
+  const SilhouetteOptions& options_;
+  SilhouetteResult& out_;
+  StageClock clock_;
+  std::vector<char> cannot_occlude_;
+  tbb::enumerable_thread_specific<Workspace> spaces_;
+};
+
+Bounds Call::casters() const {
+  Bounds out;
+  for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+    if (scene_.objects[i].casts && !cannot_occlude_[i]) out.add(scene_.objects[i].mesh.bounds());
+  return out;
+}
+
+void Call::run(const Progress& progress) {
+  cannot_occlude_ =
+      in_arena([&] { return find_casters_that_cannot_occlude(scene_, light_, rays_.frame(), receivers_); });
+  out_.counts.casters_that_cannot_occlude =
+      static_cast<std::size_t>(std::count(cannot_occlude_.begin(), cannot_occlude_.end(), char{1}));
+  const ReceiverGroups groups = in_arena([&] { return ReceiverGroups(receivers_); });
+  const std::vector<ReceiverShell> shells =
+      in_arena([&] { return receiver_shells(receivers_, groups, casters()); });
+  double done = 0.0;
+  for (const ReceiverShell& shell : shells) {
+    const double part = static_cast<double>(shell.groups.size()) / static_cast<double>(groups.count());
+    serve(shell, groups, part_of(progress, done, done + part));
+    done += part;
+  }
+}
+
+void Call::serve(const ReceiverShell& shell, const ReceiverGroups& groups, const Progress& progress) {
+  const UnitLight light(light_, shell.asked_about);
+  const LitScene lit =
+      in_arena([&] { return LitScene(scene_, light, edges_, shell.asked_about, cannot_occlude_); });
+  Passes passes =
+      in_arena([&] { return make_passes(lit, edges_, merged_, options_.tolerance, receivers_.size()); });
+  Tiles tiles(groups.count(), shell.groups, progress);
+  const ReceiverSource source(receivers_, groups, light, options_.horizon, out_);
+  const auto band_of = [&](const std::vector<std::uint32_t>& some) {
+    if (passes.now < passes.last()) return make_merged_band(lit, *merged_, *passes.levels[passes.now]);
+    std::vector<ReceiverRegion> regions;
+    if (passes.now > 0 && tiles.are_few(some)) regions = regions_of(some, passes, source, light, frame_);
+    return make_band(lit, edges_, regions);
+  };
+  for (; passes.now <= passes.last(); ++passes.now) {
+    const std::vector<std::uint32_t> some = tiles.waiting_for(passes.now);
+    if (some.empty()) continue;
+    Band band = in_arena([&] { return band_of(some); });
+    clock_.finish("band");
+    const auto evaluation = in_arena([&] {
+      return std::make_unique<Evaluation>(scene_, rays_, receivers_, std::move(band), light, options_, source,
+                                          passes, out_);
+    });
+    clock_.finish("band_tree");
+    tiles.run(passes.now, some, rays_.arena(), spaces_,
+              [&](std::size_t group, Workspace& w) { return evaluation->tile(group, w); });
+    evaluation->add_counts(out_.counts);
+    clock_.finish("receivers");
+  }
+}
+
+std::vector<std::uint32_t> Call::finish() {
+  std::vector<std::uint32_t> fallback;
+  for (const Workspace& w : spaces_) {
+    out_.counts += w.counts;
+    out_.counts.bytes += w.bytes();
+    fallback.insert(fallback.end(), w.fallback.begin(), w.fallback.end());
+    out_.open.insert(out_.open.end(), w.open.begin(), w.open.end());
+  }
+  std::sort(out_.open.begin(), out_.open.end());
+  out_.counts.hierarchy_bytes = edges_.bytes() + (merged_ ? merged_->bytes() : 0);
+  out_.stages = clock_.stages();
+  return fallback;
+}
+
+void trace_fallback(const RayScene& rays, const LightShape& light, const Receivers& receivers,
                     const SilhouetteOptions& options, const std::vector<std::uint32_t>& indices,
                     SilhouetteResult& out) {
+  StageClock clock;
   ReferenceOptions reference;
   reference.samples = options.fallback_samples;
   const ReferenceResult r = trace_reference(rays, light, receivers, indices, reference, !options.horizon);
@@ -40,84 +152,31 @@ void trace_fallback(const RayScene& rays, const DiskLight& light, const Receiver
   for (std::size_t i = 0; i < indices.size(); ++i) out.visibility[indices[i]] = values[i];
   out.counts.fallback = indices.size();
   out.counts.rays += r.rays;
+  clock.finish("fallback");
+  out.stages.push_back(clock.stages().front());
 }
 
-void require_valid(const DiskLight& light, const SilhouetteOptions& options) {
+void require_valid(const CircularLight& light, const SilhouetteOptions& options) {
   if (!(light.radius > 0.0)) throw UsageError("silhouettes need a light of radius above 0");
   const std::vector<OptionSchema> schema = silhouette_options();
   require_allowed(schema, "silhouette-rows", static_cast<std::uint64_t>(options.rows));
   require_allowed(schema, "silhouette-tolerance", options.tolerance);
 }
 
-/// Of receivers that need not lie on the scene; of pixels nothing.
-Bounds bounds_beside_scene(const Receivers& receivers) {
-  return receivers.are_pixels() ? Bounds() : bounds_of_present(receivers);
-}
-
 }  // namespace
 
 SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays, EdgeHierarchies& hierarchies,
-                                       const DiskLight& disk, const Receivers& receivers,
+                                       const LightShape& shape, const Receivers& receivers,
                                        const SilhouetteOptions& options, const Progress& progress) {
-  require_valid(disk, options);
+  const CircularLight light = require_circular(shape, "silhouettes");
+  require_valid(light, options);
   SilhouetteResult out;
   out.visibility.assign(receivers.size(), 1.0f);
   out.region.assign(receivers.size(), -1);
-  const bool may_merge = options.integrate && options.tolerance > 0.0;
-  const MergedEdges* merged = may_merge ? &hierarchies.merged(rays.arena()) : nullptr;
-  const SceneEdges& edges = hierarchies.edges(rays.arena());
-  StageClock clock;
-  const UnitLight light(disk);
-  const ReceiverGroups groups = rays.arena().execute([&] { return ReceiverGroups(receivers); });
-  const auto in_arena = [&](const auto& make) { return rays.arena().execute(make); };
-  const std::vector<char> cannot_occlude =
-      in_arena([&] { return find_casters_that_cannot_occlude(scene, disk, rays.frame(), receivers); });
-  out.counts.casters_that_cannot_occlude =
-      static_cast<std::size_t>(std::count(cannot_occlude.begin(), cannot_occlude.end(), char{1}));
-  const LitScene lit =
-      in_arena([&] { return LitScene(scene, light, edges, bounds_beside_scene(receivers), cannot_occlude); });
-
-  Passes passes =
-      in_arena([&] { return make_passes(lit, edges, merged, options.tolerance, receivers.size()); });
-  Tiles tiles(groups, progress);
-  const ReceiverSource source(receivers, groups, light, options.horizon, out);
-  const auto band_of = [&](const std::vector<std::uint32_t>& some) {
-    if (passes.now < passes.last()) return make_merged_band(lit, *merged, *passes.levels[passes.now]);
-    std::vector<ReceiverRegion> regions;
-    if (passes.now > 0 && tiles.are_few(some))
-      regions = regions_of(some, passes, source, light, hierarchies.frame());
-    return make_band(lit, edges, regions);
-  };
-  tbb::enumerable_thread_specific<Workspace> spaces;
-  for (; passes.now <= passes.last(); ++passes.now) {
-    const std::vector<std::uint32_t> some = tiles.waiting_for(passes.now);
-    if (some.empty()) continue;
-    Band band = in_arena([&] { return band_of(some); });
-    clock.finish("band");
-    const auto evaluation = in_arena([&] {
-      return std::make_unique<Evaluation>(scene, rays, receivers, std::move(band), light, options, source,
-                                          passes, out);
-    });
-    clock.finish("band_tree");
-    tiles.run(passes.now, some, rays.arena(), spaces,
-              [&](std::size_t group, Workspace& w) { return evaluation->tile(group, w); });
-    evaluation->add_counts(out.counts);
-    clock.finish("receivers");
-  }
-  out.counts.hierarchy_bytes = edges.bytes() + (merged ? merged->bytes() : 0);
-  std::vector<std::uint32_t> fallback;
-  for (const Workspace& w : spaces) {
-    out.counts += w.counts;
-    out.counts.bytes += w.bytes();
-    fallback.insert(fallback.end(), w.fallback.begin(), w.fallback.end());
-    out.open.insert(out.open.end(), w.open.begin(), w.open.end());
-  }
-  std::sort(out.open.begin(), out.open.end());
-  if (!fallback.empty()) {
-    trace_fallback(rays, disk, receivers, options, fallback, out);
-    clock.finish("fallback");
-  }
-  out.stages = clock.stages();
+  Call call(scene, rays, hierarchies, light, receivers, options, out);
+  call.run(progress);
+  const std::vector<std::uint32_t> fallback = call.finish();
+  if (!fallback.empty()) trace_fallback(rays, shape, receivers, options, fallback, out);
   return out;
 }
 

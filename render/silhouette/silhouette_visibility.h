@@ -95,10 +95,10 @@ struct SilhouetteResult {
 
 /// Cost: vertices (their box), the band, the band edges near each group, per receiver its part's list (blocks of
 /// eight edges where that is long and the surface is fine), and s log s for s segments across the disk. On all
-/// threads of `rays`; the result does not depend on their number. Throws UsageError for a light of radius 0 or
-/// options outside their range, Cancelled.
+/// threads of `rays`; the result does not depend on their number. Throws UsageError for a rectangle, a light of radius 0
+/// or options outside their range, Cancelled.
 SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
-                                       detail::EdgeHierarchies& hierarchies, const DiskLight& light,
+                                       detail::EdgeHierarchies& hierarchies, const LightShape& light,
                                        const Receivers& receivers, const SilhouetteOptions& options = {},
                                        const Progress& progress = {});
 

@@ -27,7 +27,7 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::uint32_t index,
     out_.region[index] = 2;
     return Kind::kBehindLight;
   }
-  const Vec3 n = light_.direction(normal);
+  const Vec3 n = light_.plane_normal(point, normal);
   // The center's height over the tangent plane, and how far the plane falls or rises across the disk.
   const double center = -glm::dot(n, x), fall2 = n.x * n.x + n.y * n.y;
   const bool cuts = horizon_ && center * center < fall2;

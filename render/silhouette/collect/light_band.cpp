@@ -145,8 +145,8 @@ Band make_band(const LitScene& lit, const SceneEdges& scene_edges, std::span<con
 
   // Which edges, and which cuts of faces.
   std::vector<SceneEdge> edges =
-      regions.empty() ? scene_edges.band_of(lit.light.disk(), lit.cannot_occlude)
-                      : scene_edges.band_for(regions, lit.scene, lit.light.disk(), lit.cannot_occlude);
+      regions.empty() ? scene_edges.band_of(lit.light.light(), lit.cannot_occlude)
+                      : scene_edges.band_for(regions, lit.scene, lit.light.light(), lit.cannot_occlude);
   const std::vector<CutFace> cuts = drop_behind(casters, edges);
   band.cut_edges = cuts.size();
 
@@ -170,7 +170,7 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
     double per_unit() const { return light.per_radius(); }
   };
   Band band = empty_band(lit);
-  const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.light.disk(), lit.cannot_occlude);
+  const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.light.light(), lit.cannot_occlude);
   band.bounds.resize(blocks.size());
   band.deviation.resize(blocks.size());
   band.lanes = LargeArray<MergedLanes>(blocks.size());

@@ -8,9 +8,7 @@
 namespace penumbra::detail {
 namespace {
 
-double extent_of(const Scene& scene, const Bounds& receivers, const UnitLight& light) {
-  Bounds box = scene.bounds();
-  box.add(receivers);
+double extent_of(const Bounds& box, const UnitLight& light) {
   double extent = 1.0;
   for (int corner = 0; corner < 8; ++corner)
     extent = std::max(extent, largest_component(light.point({corner & 1 ? box.high.x : box.low.x,
@@ -22,12 +20,12 @@ double extent_of(const Scene& scene, const Bounds& receivers, const UnitLight& l
 }  // namespace
 
 LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const SceneEdges& edges,
-                   const Bounds& receivers, std::span<const char> flags)
+                   const Bounds& asked_about, std::span<const char> flags)
     : scene(lit_scene),
       light(unit_light),
       cannot_occlude(flags),
       boxes(scene.objects.size()),
-      extent(extent_of(scene, receivers, light)) {
+      extent(extent_of(asked_about, light)) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     if (!object.casts || object.mesh.empty() || (!cannot_occlude.empty() && cannot_occlude[i])) continue;

@@ -14,10 +14,10 @@ namespace penumbra::detail {
 
 /// Lengths are in light radii. Refers to its arguments.
 struct LitScene {
-  /// `edges` are the scene's. `receivers`: bounds of those that may lie outside of the scene's bounds.
+  /// `edges` are the scene's. `asked_about`: bounds of casters and receivers.
   /// `cannot_occlude`: a flag an object, or none at all; casters whose flag is set are left out. Cost
   /// O(vertices), a hundredth of them where neighbors in a mesh's arrays are neighbors in space.
-  LitScene(const Scene& scene, const UnitLight& light, const SceneEdges& edges, const Bounds& receivers = {},
+  LitScene(const Scene& scene, const UnitLight& light, const SceneEdges& edges, const Bounds& asked_about,
            std::span<const char> cannot_occlude = {});
 
   const Scene& scene;
@@ -25,7 +25,7 @@ struct LitScene {
   std::span<const char> cannot_occlude;
   /// One an object; empty for objects that do not cast.
   std::vector<Bounds> boxes;
-  /// The largest absolute coordinate of the whole scene, receivers included; at least 1.
+  /// The largest absolute coordinate of what is asked about; at least 1.
   double extent = 1.0;
   /// All casters lie in front of the light's plane.
   bool all_in_front = true;

@@ -62,11 +62,12 @@ struct FloatPlane {
   float offset;
 };
 
-/// True for blocks of which all planes have one sign for all receivers in a box.
-PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers) {
-  Floats value = c.value, reach = c.value_half;
+/// True for blocks of which all planes have one sign for all receivers in a box. The box is one of homogeneous points
+/// (p, weight): weight 1 for points, 0 for directions.
+PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers, float weight = 1.0f) {
+  Floats value = weight * c.value, reach = weight * c.value_half;
   for (int k = 0; k < 3; ++k) {
-    const Floats d = receivers.middle[k] - c.middle[k];
+    const Floats d = receivers.middle[k] - weight * c.middle[k];
     value += c.normal[k] * d;
     reach +=
         c.normal_half[k] * (magnitude(d) + receivers.half[k]) + magnitude(c.normal[k]) * receivers.half[k];
@@ -101,18 +102,20 @@ PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receivers, con
   return highest < lowest;
 }
 
-/// A test of blocks for `BoundsTree`: drops those whose planes have one sign for all receivers in a box.
+/// A test of blocks for `BoundsTree`: drops those whose planes have one sign for all receivers in a box, or for all points
+/// of a light (`weight` as in are_one_sided).
 class SidesTest {
  public:
-  explicit SidesTest(const FloatBox& receivers) : receivers_(receivers) {}
+  explicit SidesTest(const FloatBox& receivers, float weight = 1.0f) : receivers_(receivers), weight_(weight) {}
   SidesTest(const Vec3& middle, const Vec3& half) : receivers_(middle, half) {}
   /// Bit i is set where block i is dropped.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
-    return bits_of(are_one_sided(c, receivers_));
+    return bits_of(are_one_sided(c, receivers_, weight_));
   }
 
  private:
   FloatBox receivers_;
+  float weight_ = 1.0f;
 };
 
 }  // namespace penumbra::detail

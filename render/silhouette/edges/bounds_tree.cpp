@@ -47,6 +47,7 @@ Children packed(const BlockBounds* first, const BlockBounds* last, double extent
   };
   Children c{};
   c.value += 1.0f;
+  for (Floats& half : c.normal_half) half -= 1.0f;  // so that directions are on one side as well
   for (const BlockBounds* n = first; n != last; ++n) {
     const auto l = n - first;
     const Vec3 half = 0.5 * (n->high - n->low);
@@ -54,7 +55,7 @@ Children packed(const BlockBounds* first, const BlockBounds* last, double extent
       c.middle[k][l] = static_cast<float>(0.5 * (n->low[k] + n->high[k]));
       c.half[k][l] = enlarged(half[k], 0x1p-22 * extent);
       c.normal[k][l] = static_cast<float>(0.5 * (n->normal_low[k] + n->normal_high[k]));
-      c.normal_half[k][l] = enlarged(0.5 * (n->normal_high[k] - n->normal_low[k]), 0x1p-22);
+      c.normal_half[k][l] = enlarged(0.5 * (n->normal_high[k] - n->normal_low[k]), 0x1p-20);
     }
     c.across[l] = enlarged(std::hypot(half.x, half.y), 0x1p-22 * extent);
     const bool bounded = n->near_high < kInfinity;

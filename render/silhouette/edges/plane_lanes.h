@@ -72,10 +72,10 @@ struct LocalPlanes {
     }
     planes.set(lane, edge, 0.0);
   }
-  /// The point in the coordinates of the planes.
-  std::array<float, 3> from_origin(const SplitPoint& p) const {
+  /// The point in the coordinates of the planes; of a homogeneous point (p, weight) its first three numbers.
+  std::array<float, 3> from_origin(const SplitPoint& p, float weight = 1.0f) const {
     std::array<float, 3> out;
-    for (int k = 0; k < 3; ++k) out[k] = (p.high[k] - origin[k]) + p.low[k];
+    for (int k = 0; k < 3; ++k) out[k] = (p.high[k] - weight * origin[k]) + p.low[k];
     return out;
   }
 

@@ -24,8 +24,20 @@ std::span<const Vec3> group(std::span<const Vec3> points, std::size_t i) {
   return points.subspan(i * kGroup, std::min(kGroup, points.size() - i * kGroup));
 }
 
+/// The same in a projective frame, where the image of a box lies between the images of its corners.
+Bounds around_corners(const Bounds& world, const UnitLight& light) {
+  Bounds out;
+  for (int corner = 0; corner < 8; ++corner)
+    out.add(light.point({corner & 1 ? world.high.x : world.low.x, corner & 2 ? world.high.y : world.low.y,
+                         corner & 4 ? world.high.z : world.low.z}));
+  const double grain =
+      kRounding * std::max(1.0, std::max(largest_component(out.low), largest_component(out.high)));
+  return {out.low - grain, out.high + grain};
+}
+
 /// A box in the light's frame around a box of the world.
 Bounds around(const Bounds& world, const UnitLight& light) {
+  if (light.is_projective()) return around_corners(world, light);
   const Vec3 middle = light.point(world.center()), half = 0.5 * (world.high - world.low);
   const double far = std::max(largest_component(world.low), largest_component(world.high));
   Vec3 reach(kRounding * (largest_component(middle) + light.per_radius() * far));

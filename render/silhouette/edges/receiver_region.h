@@ -6,19 +6,21 @@
 // where few receivers are left, so that looking for their edges costs less than making the light's band.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <vector>
 
+#include "mesh/vectors.h"
 #include "render/silhouette/edges/bounds_tree.h"
 #include "render/silhouette/edges/plane_lanes.h"
 
 namespace penumbra::detail {
 
 /// Drops blocks outside of a convex region, blocks below the receivers' tangent planes, and blocks whose
-/// planes have one sign for all receivers. Made by `Shaft::region`. Coordinates of edges are up to 1, those
-/// of receivers up to 4.
+/// planes have one sign for all receivers. Made by `Shaft::region`. Coordinates of edges are up to 1; margins grow with
+/// those of the receivers.
 class ReceiverRegion {
  public:
   /// As many as a `Shaft` has.
@@ -30,15 +32,16 @@ class ReceiverRegion {
   ReceiverRegion() = default;
   /// Planes are more than 0 outside. `middle` and `half`: the box of the receivers.
   ReceiverRegion(const std::array<Plane, kPlanes>& planes, const Vec3& middle, const Vec3& half)
-      : receivers_(middle, half + kBoundsGrain) {
+      : grain_(kBoundsGrain * std::max(4.0, largest_component(middle) + largest_component(half))),
+        receivers_(middle, half + grain_) {
     for (std::size_t k = 0; k < kPlanes; ++k)
-      planes_[k] = FloatPlane(planes[k].normal, planes[k].offset - 4.0 * kBoundsGrain);
+      planes_[k] = FloatPlane(planes[k].normal, planes[k].offset - grain_);
   }
   /// Also drops what is below all tangent planes: normal·(p - m) < lowest for all normals of a box, m the
   /// middle of the receivers. `middle` and `half`: the box of the normals.
   void add_horizon(const Vec3& middle, const Vec3& half, double lowest) {
     normals_ = FloatBox(middle, half + kBoundsGrain);
-    lowest_ = static_cast<float>(lowest - 4.0 * kBoundsGrain);
+    lowest_ = static_cast<float>(lowest - grain_);
   }
   /// Bit i is set where block i is dropped.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
@@ -53,17 +56,18 @@ class ReceiverRegion {
     Point(const Vec3& at, const Vec3& normal)
         : at_(at),
           normal_(normal),
+          reach_(std::max(1.0, largest_component(at))),
           split_(at),
-          box_(at, Vec3(kPointGrain)),
+          box_(at, Vec3(kPointGrain * reach_)),
           normals_(normal, Vec3(kPointGrain)) {}
     const SplitPoint& at() const { return split_; }
     /// A point is certain to lie below the receiver's tangent plane.
-    bool is_below(const Vec3& p) const { return glm::dot(normal_, p - at_) < -0x1p-44; }
+    bool is_below(const Vec3& p) const { return glm::dot(normal_, p - at_) < -0x1p-44 * reach_; }
     /// Bit i is set where block i is one-sided, or below the tangent plane.
     PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {
-      constexpr float kLowest = -16.0f * kPointGrain;
-      return bits_of(are_one_sided(c, box_) | are_below(c, box_, normals_, kLowest) |
-                     are_under(c, box_, normals_, kLowest));
+      const float lowest = -16.0f * kPointGrain * static_cast<float>(reach_);
+      return bits_of(are_one_sided(c, box_) | are_below(c, box_, normals_, lowest) |
+                     are_under(c, box_, normals_, lowest));
     }
 
    private:
@@ -71,6 +75,7 @@ class ReceiverRegion {
     /// ReceiverRegion.LoseNothingThatAReceiverSees.
     static constexpr float kPointGrain = 0x1p-23f;
     Vec3 at_, normal_;
+    double reach_;
     SplitPoint split_;
     FloatBox box_, normals_;
   };
@@ -78,6 +83,7 @@ class ReceiverRegion {
   const std::vector<Point>& receivers() const { return points_; }
 
  private:
+  double grain_ = 4.0 * kBoundsGrain;
   FloatBox normals_;
   float lowest_ = -std::numeric_limits<float>::infinity();
   std::array<FloatPlane, kPlanes> planes_;

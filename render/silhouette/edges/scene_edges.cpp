@@ -58,17 +58,17 @@ LargeArray<SceneEdge> neighbors_together(LargeArray<Placed> edges) {
 }
 
 /// The side of eight planes on which the disk lies: 1 or -1, or 0 where that is not certain. c: the disk's
-/// center in the coordinates of the planes. The distance of a plane with unit normal n from a point of the
+/// homogeneous center in the coordinates of the planes. The distance of a plane with unit normal n from a point of the
 /// disk differs from that from the center by at most radius · √(1 - (n·normal)²).
 PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, const std::array<float, 3>& c,
                                 Ints& out) {
   const auto& m = disk.normal;
-  const Floats value = plane.x * c[0] + plane.y * c[1] + plane.z * c[2] + plane.offset;
+  const Floats value = plane.x * c[0] + plane.y * c[1] + plane.z * c[2] + disk.weight * plane.offset;
   const Floats along = plane.x * m[0] + plane.y * m[1] + plane.z * m[2];
   const Floats steep2 = 1.0f - along * along;
   const Floats none{};
   const Floats rise2 = (steep2 > 0.0f ? steep2 : none) + 0x1p-20f;
-  const Floats beyond = magnitude(value) - plane.tolerance - disk.margin;
+  const Floats beyond = magnitude(value) - disk.weight * plane.tolerance - disk.margin;
   const Ints clear = (beyond > 0.0f) & (beyond * beyond > 1.0001f * disk.radius2 * rise2);
   out = clear & ((value < 0.0f) - (value > 0.0f));
 }
@@ -76,7 +76,7 @@ PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, 
 /// Bit i is clear where both faces of edge i are certain to have the disk on the same side.
 PENUMBRA_VECTOR_CLONES
 std::uint32_t may_be_in_band(const LocalPlanes& block, const FloatDisk& disk) {
-  const std::array<float, 3> center = block.from_origin(disk.center);
+  const std::array<float, 3> center = block.from_origin(disk.center, disk.weight);
   Ints left, right;
   sides_over(block.planes.left, disk, center, left);
   sides_over(block.planes.right, disk, center, right);
@@ -85,16 +85,35 @@ std::uint32_t may_be_in_band(const LocalPlanes& block, const FloatDisk& disk) {
 
 }  // namespace
 
-FloatDisk::FloatDisk(const DiskLight& light, const Vec3& origin, double scale)
-    : center((light.center - origin) * scale) {
-  const Vec3 middle = (light.center - origin) * scale, unit_normal = unit(light.normal);
-  const double radius = light.radius * scale;
-  // The light may lie farther out than it did when the frame was made.
-  const double extent = std::max(1.0, largest_component(middle) + radius);
-  const Vec3 half = radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - unit_normal * unit_normal));
-  box = FloatBox(middle, half + kBoundsGrain * extent);
+namespace {
+
+/// A circular light in homogeneous coordinates that are at most about 1.
+struct ScaledDisk {
+  Vec3 center;
+  double weight, radius;
+};
+
+ScaledDisk scaled_disk(const CircularLight& light, const Vec3& origin, double scale) {
+  if (light.is_distant()) return {-unit(light.normal), 0.0, light.radius};
+  const Vec3 center = (light.center - origin) * scale;
+  const double radius = light.radius * scale, reach = largest_component(center) + radius;
+  // A power of two, so that nothing rounds.
+  const double weight = reach > 1.0 ? std::exp2(-std::ceil(std::log2(reach))) : 1.0;
+  return {center * weight, weight, radius * weight};
+}
+
+}  // namespace
+
+FloatDisk::FloatDisk(const CircularLight& light, const Vec3& origin, double scale)
+    : center(scaled_disk(light, origin, scale).center) {
+  const ScaledDisk disk = scaled_disk(light, origin, scale);
+  const Vec3 unit_normal = unit(light.normal);
+  const double extent = std::max(1.0, disk.radius);  // the angle of a distant light may be large
+  const Vec3 half = disk.radius * glm::sqrt(glm::max(Vec3(0.0), 1.0 - unit_normal * unit_normal));
+  weight = static_cast<float>(disk.weight);
+  box = FloatBox(disk.center, half + kBoundsGrain * extent);
   normal = FloatBox(unit_normal, half).middle;
-  radius2 = static_cast<float>(radius * radius);
+  radius2 = static_cast<float>(disk.radius * disk.radius);
   margin = static_cast<float>(0x1p-18 * extent);
 }
 
@@ -133,18 +152,20 @@ SceneEdges::SceneEdges(const Scene& scene, const Vec3& origin, double scale)
 
 void SceneEdges::add_block(std::size_t block, std::uint32_t edges, std::span<const char> cannot_occlude,
                            std::vector<SceneEdge>& out) const {
+  // Lanes without an edge are in no light's band, but for a distant one's.
+  if (edges_.size() - block * kLanes < kLanes) edges &= (1u << (edges_.size() - block * kLanes)) - 1u;
   for (; edges != 0; edges &= edges - 1) {
     const SceneEdge& e = edges_[block * kLanes + static_cast<std::size_t>(std::countr_zero(edges))];
     if (cannot_occlude.empty() || !cannot_occlude[e.object]) out.push_back(e);
   }
 }
 
-std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light,
+std::vector<SceneEdge> SceneEdges::band_of(const CircularLight& light,
                                            std::span<const char> cannot_occlude) const {
   const FloatDisk disk(light, origin_, scale_);
   // Blocks whose faces do not all look at the light or all away from it.
   std::vector<NodeMask> parents;
-  tree_.collect(SidesTest(disk.box), parents);
+  tree_.collect(SidesTest(disk.box, disk.weight), parents);
 
   // Of these, edge by edge.
   std::vector<std::vector<SceneEdge>> runs((parents.size() + kMasksPerTask - 1) / kMasksPerTask);
@@ -159,8 +180,9 @@ std::vector<SceneEdge> SceneEdges::band_of(const DiskLight& light,
   return out;
 }
 
-std::size_t SceneEdges::size_of_band(const DiskLight& light) const {
-  return tree_.count_at_most(SidesTest(FloatDisk(light, origin_, scale_).box)) * kLanes;
+std::size_t SceneEdges::size_of_band(const CircularLight& light) const {
+  const FloatDisk disk(light, origin_, scale_);
+  return tree_.count_at_most(SidesTest(disk.box, disk.weight)) * kLanes;
 }
 
 /// Which edges have a face on either side of a receiver is asked in float. Whether they lie below its
@@ -217,7 +239,7 @@ void SceneEdges::mark_needed(const ReceiverRegion& region, const Scene& scene,
 }
 
 std::vector<SceneEdge> SceneEdges::band_for(std::span<const ReceiverRegion> regions, const Scene& scene,
-                                            const DiskLight& light,
+                                            const CircularLight& light,
                                             std::span<const char> cannot_occlude) const {
   std::vector<std::atomic<std::uint8_t>> needed(planes_.size());
   tbb::parallel_for(std::size_t{0}, regions.size(),

@@ -1,6 +1,6 @@
 // Silhouette method, step edges: all edges of a scene's casters, and which of them may be in a light's band.
 //
-// In: the casters, once. Out: for any disk light, the edges of its silhouette band (volumes/silhouettes.h),
+// In: the casters, once. Out: for any circular light, the edges of its silhouette band (volumes/silhouettes.h),
 // without a look at every face.
 //
 // Edges that lie close together are neighbors, eight a block: the edges are halved across the longest side
@@ -34,9 +34,12 @@ struct SceneEdge {
   EdgeId id;
 };
 
-/// A disk light in float, in the frame (p - origin) · scale. Doubles are rounded with a margin.
+/// A circular light in float, in the frame (p - origin) · scale, with homogeneous coordinates: of a light that is far
+/// away the center and the radius are divided by its distance, or about that. Doubles are rounded with a margin.
 struct FloatDisk {
-  FloatDisk(const DiskLight& light, const Vec3& origin, double scale);
+  FloatDisk(const CircularLight& light, const Vec3& origin, double scale);
+  /// 1 for a light within [-1, 1], less the farther it is, 0 for a distant one.
+  float weight;
   /// Around the disk.
   FloatBox box;
   SplitPoint center;
@@ -46,18 +49,18 @@ struct FloatDisk {
 
 class SceneEdges {
  public:
-  /// In the frame (p - origin) · scale, which takes all of the scene into [-1, 1]. Cost O(E log E), most of
+  /// In the frame (p - origin) · scale, which takes all casters into [-1, 1]. Cost O(E log E), most of
   /// it on all cores; some 60 bytes an edge.
   SceneEdges(const Scene& scene, const Vec3& origin, double scale);
   /// The edges of the light's band, neighbors close together. `cannot_occlude`: a flag an object, or none
   /// at all; edges of objects whose flag is set are left out. Cost O(band + √E), on all cores.
-  std::vector<SceneEdge> band_of(const DiskLight& light, std::span<const char> cannot_occlude) const;
+  std::vector<SceneEdge> band_of(const CircularLight& light, std::span<const char> cannot_occlude) const;
   /// As many edges as `band_of` has, or up to a few times as many. Cost O(√E) where the surface is fine.
-  std::size_t size_of_band(const DiskLight& light) const;
+  std::size_t size_of_band(const CircularLight& light) const;
   /// Of the band those edges that may matter to the receivers of some regions. Cost: some 10 μs a region on
   /// a fine surface.
   std::vector<SceneEdge> band_for(std::span<const ReceiverRegion> regions, const Scene& scene,
-                                  const DiskLight& light, std::span<const char> cannot_occlude) const;
+                                  const CircularLight& light, std::span<const char> cannot_occlude) const;
   std::size_t size() const { return edges_.size(); }
   /// The points of an object that casts, by its index in the scene.
   const PointGroups& points(std::size_t object) const { return points_[object]; }

@@ -139,10 +139,11 @@ MergedEdges::MergedEdges(const Scene& scene, const Vec3& origin, double scale)
   }
 }
 
-std::vector<std::uint32_t> MergedEdges::blocks_of(const MergedLevel& level, const DiskLight& light,
+std::vector<std::uint32_t> MergedEdges::blocks_of(const MergedLevel& level, const CircularLight& light,
                                                   std::span<const char> cannot_occlude) const {
   std::vector<NodeMask> parents;
-  level.tree.collect(SidesTest(FloatDisk(light, origin_, scale_).box), parents);
+  const FloatDisk disk(light, origin_, scale_);
+  level.tree.collect(SidesTest(disk.box, disk.weight), parents);
   std::vector<std::uint32_t> out;
   const auto casts = [&](std::size_t block) {
     const std::size_t first = block * MergedBlock::kEdges;

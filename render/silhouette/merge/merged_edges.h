@@ -58,7 +58,7 @@ class MergedEdges {
   const std::vector<MergedLevel>& levels() const { return levels_; }
   /// The blocks of a level that may hold an edge of the light's band, ascending. `cannot_occlude`: a flag
   /// an object, or none at all; blocks with edges only of objects whose flag is set are left out.
-  std::vector<std::uint32_t> blocks_of(const MergedLevel& level, const DiskLight& light,
+  std::vector<std::uint32_t> blocks_of(const MergedLevel& level, const CircularLight& light,
                                        std::span<const char> cannot_occlude) const;
   std::size_t bytes() const;
 

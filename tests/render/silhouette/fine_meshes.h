@@ -69,19 +69,19 @@ inline Scene scene_of(const TriangleMesh& mesh) {
   return scene;
 }
 
-/// In the frame of all objects.
+/// In the frame of rays.
 inline detail::MergedEdges merged_edges_of(const Scene& scene) {
-  const RayFrame frame = frame_of_all_objects(scene);
+  const RayFrame frame = ray_frame(scene);
   return {scene, frame.origin, frame.scale};
 }
 
 /// A scene under its light.
 struct Stage {
   explicit Stage(const Scene& scene)
-      : frame(frame_of_all_objects(scene)),
+      : frame(ray_frame(scene)),
         light(light_of(scene)),
         edges(scene, frame.origin, frame.scale),
-        lit(scene, light, edges),
+        lit(scene, light, edges, scene.bounds()),
         band(detail::make_band(lit, edges)) {}
   RayFrame frame;
   detail::UnitLight light;

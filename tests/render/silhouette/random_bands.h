@@ -18,10 +18,10 @@ namespace penumbra::testing {
 
 /// The band of a scene's light.
 inline detail::Band band_of(const Scene& scene) {
-  const RayFrame frame = frame_of_all_objects(scene);
+  const RayFrame frame = ray_frame(scene);
   const detail::UnitLight light(light_of(scene));
   const detail::SceneEdges edges(scene, frame.origin, frame.scale);
-  return detail::make_band(detail::LitScene(scene, light, edges), edges);
+  return detail::make_band(detail::LitScene(scene, light, edges, scene.bounds()), edges);
 }
 
 /// Random triangles between light and receivers as a band.
