@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <numeric>
+#include <utility>
 
 #include "apps/cli/judge.h"
 #include "apps/common/messages.h"
@@ -22,9 +24,14 @@ constexpr double kMaxDisagreement = 1e-3;
 // Of P, relative to the scene: channels are float, positions double.
 constexpr double kPositionTolerance = 1e-5;
 
-constexpr int kResamples = 65'536;
-constexpr double kWorstFraction = 0.02;
-constexpr std::size_t kWorstAtLeast = 1'000;
+struct Resampling {
+  double fraction;
+  std::size_t at_least;
+  int samples;
+};
+// Of the worst pixels. The oracle's rays take some ten times as long as Embree's.
+constexpr Resampling kByRays{0.02, 1'000, 65'536}, kByOracle{0.0, 300, 32'768};
+constexpr int kCertificateSamples = 256;
 // Two references, then the worst pixels again. No seed that a person would give a rendering: against itself a
 // noisy image would look free of error.
 constexpr std::uint64_t kSeeds[3] = {0x9e3779b97f4a7c15, 0xbf58476d1ce4e5b9, 0x94d049bb133111eb};
@@ -47,13 +54,14 @@ std::vector<std::uint32_t> receivers(const Image& image, const Judged& judged) {
   return pixels;
 }
 
-// Moves the pixels for which `agrees` is false out of the comparison; false where they are too many.
+// Moves the pixels for which `agrees` is false out of the comparison; false where they and those that are missing are too
+// many.
 template <class Agrees>
-bool keep_agreeing(Comparison& comparison, Agrees agrees) {
+bool keep_agreeing(Comparison& comparison, Agrees agrees, std::size_t missing = 0) {
   std::vector<std::uint32_t>& judged = comparison.judged;
   const std::size_t before = judged.size();
   std::erase_if(judged, [&](std::uint32_t i) { return !agrees(i); });
-  comparison.skipped = before - judged.size();
+  comparison.skipped = before - judged.size() + missing;
   return static_cast<double>(comparison.skipped) <= kMaxDisagreement * static_cast<double>(before);
 }
 
@@ -63,43 +71,21 @@ bool same_point(const Image& image, const SurfaceBuffer& surface, std::size_t i,
   return glm::distance(point, surface.position[i]) <= tolerance;
 }
 
+/// One entry a pixel of the image.
 struct References {
   std::vector<float> first, second;
 };
 
-std::vector<float> spread(const std::vector<float>& values, const std::vector<std::uint32_t>& pixels,
-                          std::size_t size) {
-  std::vector<float> image(size, 1.0f);
-  for (std::size_t k = 0; k < pixels.size(); ++k) image[pixels[k]] = values[k];
-  return image;
-}
+/// Traces visibility of pixels: pixels, samples, seed, label.
+using Trace = std::function<std::vector<float>(const std::vector<std::uint32_t>&, int, std::uint64_t,
+                                               const std::string&)>;
 
-// Traces visibility at pixels of one scene, keeping count of rays.
-class Tracer {
- public:
-  Tracer(const RayScene& rays, const LightShape& light, const SurfaceBuffer& surface, Comparison& comparison)
-      : rays_(rays), light_(light), surface_(surface), comparison_(comparison) {}
-
-  std::vector<float> trace(const std::vector<std::uint32_t>& pixels, int samples, std::uint64_t seed,
-                           const std::string& label) {
-    ProgressLine progress(label);
-    ReferenceResult result = trace_reference(rays_, light_, surface_.receivers(), pixels,
-                                             {.samples = samples, .seed = seed}, false, progress.callback());
-    comparison_.rays += result.rays;
-    return std::move(result.visibility);
-  }
-
- private:
-  const RayScene& rays_;
-  const LightShape& light_;
-  const SurfaceBuffer& surface_;
-  Comparison& comparison_;
-};
-
-std::vector<std::uint32_t> worst_pixels(const std::vector<float>& method, const Comparison& comparison) {
+std::vector<std::uint32_t> worst_pixels(const std::vector<float>& method, const Comparison& comparison,
+                                        const Resampling& resampling) {
   std::vector<std::uint32_t> pixels = comparison.penumbra;
-  const auto share = static_cast<std::size_t>(std::ceil(kWorstFraction * static_cast<double>(pixels.size())));
-  const std::size_t count = std::min(pixels.size(), std::max(share, kWorstAtLeast));
+  const auto share =
+      static_cast<std::size_t>(std::ceil(resampling.fraction * static_cast<double>(pixels.size())));
+  const std::size_t count = std::min(pixels.size(), std::max(share, resampling.at_least));
   const auto error = [&](std::uint32_t i) { return std::abs(method[i] - comparison.reference[i]); };
   std::partial_sort(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(count), pixels.end(),
                     [&](std::uint32_t a, std::uint32_t b) {
@@ -122,9 +108,9 @@ void set_figures(Comparison& comparison, const std::vector<float>& method, const
 // The largest errors are those in which the reference's noise had a share: only p99 and the maximum are
 // corrected, since replacing chosen pixels would bias the means.
 void resample_worst(Comparison& comparison, const std::vector<float>& method, References references,
-                    Tracer& tracer) {
-  const std::vector<std::uint32_t> pixels = worst_pixels(method, comparison);
-  const std::vector<float> values = tracer.trace(pixels, kResamples, kSeeds[2], "worst pixels again");
+                    const Trace& trace, const Resampling& resampling) {
+  const std::vector<std::uint32_t> pixels = worst_pixels(method, comparison, resampling);
+  const std::vector<float> values = trace(pixels, resampling.samples, kSeeds[2], "worst pixels again");
   for (std::size_t k = 0; k < pixels.size(); ++k)
     references.first[pixels[k]] = references.second[pixels[k]] = comparison.reference[pixels[k]] = values[k];
   const auto correct = [&](ErrorFigures& figures, const std::vector<std::uint32_t>& selected) {
@@ -135,7 +121,7 @@ void resample_worst(Comparison& comparison, const std::vector<float>& method, Re
   correct(comparison.all, comparison.judged);
   correct(comparison.in_penumbra, comparison.penumbra);
   comparison.resampled = pixels.size();
-  comparison.resamples = kResamples;
+  comparison.resamples = resampling.samples;
 }
 
 /// Of several lights one has to be named.
@@ -177,48 +163,147 @@ Comparison compare_images(const Image& image, const Image& reference, const Judg
   return comparison;
 }
 
-Comparison compare_to_scene(const Image& image, const Scene& scene, const Judged& wanted,
-                            const TraceOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::size_t light = light_of(scene, wanted);
-  const Judged judged{wanted.object, scene.lights.size() > 1 ? scene.lights[light].name : ""};
-  Comparison comparison;
-  comparison.judged = receivers(image, judged);
-  const RayScene rays(scene, options.threads);
-  const SurfaceBuffer surface = make_surface_buffer(scene, rays, image.width, image.height);
-  Bounds bounds = scene.bounds();
-  bounds.add(scene.camera.eye);
+struct SceneComparison::State {
+  State(const Scene& scene, const Judged& wanted, const TraceOptions& options);
+
+  Comparison compare(const Image& image);
+
+ private:
+  void see(const Image& image);
+  /// Receivers of the image that are those of the scene. Throws SceneError where too few are.
+  void keep_those_of_scene(Comparison& comparison, const Image& image) const;
+  std::vector<float> trace(const std::vector<std::uint32_t>& pixels, int samples, std::uint64_t seed,
+                           const std::string& label);
+  void trace_references(const std::vector<std::uint32_t>& pixels);
+  void check_certificates(Comparison& comparison, const Image& image) const;
+
+  const Scene& scene_;
+  const TraceOptions options_;
+  const std::size_t light_;
+  const Judged judged_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::optional<RayScene> rays_;  // one of the two traces
+  std::optional<Judge> judge_;
+  SurfaceBuffer surface_;
+  std::vector<std::uint32_t> chosen_;  // by the oracle, ascending
+  References references_;
+  std::vector<bool> traced_;
+  std::size_t rays_traced_ = 0;
+};
+
+SceneComparison::State::State(const Scene& scene, const Judged& wanted, const TraceOptions& options)
+    : scene_(scene),
+      options_(options),
+      light_(light_of(scene, wanted)),
+      judged_{wanted.object, scene.lights.size() > 1 ? scene.lights[light_].name : ""} {}
+
+void SceneComparison::State::see(const Image& image) {
+  if (options_.oracle_pixels > 0) {
+    judge_.emplace(scene_, scene_.lights[light_].shape);
+    surface_ = surface_by_oracle(scene_, image.width, image.height);
+    std::vector<std::uint32_t> seen;
+    for (std::uint32_t i = 0; i < surface_.size(); ++i)
+      if (surface_.hit(i) && (!judged_.object || *judged_.object == surface_.object[i])) seen.push_back(i);
+    chosen_ = some_of(std::move(seen), options_.oracle_pixels);
+  } else {
+    rays_.emplace(scene_, options_.threads);
+    surface_ = make_surface_buffer(scene_, *rays_, image.width, image.height);
+  }
+  references_.first.assign(surface_.size(), 1.0f);
+  references_.second.assign(surface_.size(), 1.0f);
+  traced_.assign(surface_.size(), false);
+}
+
+void SceneComparison::State::keep_those_of_scene(Comparison& comparison, const Image& image) const {
+  Bounds bounds = scene_.bounds();
+  bounds.add(scene_.camera.eye);
   const double tolerance = kPositionTolerance * (bounds.radius() + glm::length(bounds.center()));
-  if (!keep_agreeing(comparison, [&](std::uint32_t i) { return same_point(image, surface, i, tolerance); }))
+  const std::vector<float>& objects = image.at("object");
+  std::size_t missing = 0;  // what the scene has and the image has not
+  for (std::size_t i = 0; i < surface_.size(); ++i)
+    missing += surface_.hit(i) && (judged_.object ? surface_.object[i] == *judged_.object &&
+                                                        objects[i] != static_cast<float>(*judged_.object)
+                                                  : objects[i] < 0.0f);
+  if (!keep_agreeing(
+          comparison, [&](std::uint32_t i) { return same_point(image, surface_, i, tolerance); }, missing))
     throw SceneError("the image was not rendered from this scene: they disagree at " +
                      std::to_string(comparison.skipped) +
                      " pixels; give the scene that it was rendered from");
+}
 
-  Tracer tracer(rays, scene.lights[light].shape, surface, comparison);
-  std::optional<Judge> judge;
-  if (options.oracle_pixels > 0) {
-    judge.emplace(scene, require_disk(scene.lights[light].shape, "--judge double"));
-    comparison.judged = some_of(std::move(comparison.judged), options.oracle_pixels);
+std::vector<float> SceneComparison::State::trace(const std::vector<std::uint32_t>& pixels, int samples,
+                                                 std::uint64_t seed, const std::string& label) {
+  ProgressLine progress(label);
+  if (judge_) {
+    rays_traced_ += pixels.size() * static_cast<std::size_t>(samples);
+    return judge_->visibility(surface_, pixels, samples, seed, progress.callback());
   }
-  const auto reference = [&](int k) {
-    const std::string label = "reference " + std::to_string(k + 1) + " of 2";
-    if (!judge)
-      return spread(tracer.trace(comparison.judged, options.samples, kSeeds[k], label), comparison.judged,
-                    surface.size());
-    ProgressLine progress(label);
-    comparison.rays += comparison.judged.size() * static_cast<std::size_t>(options.samples);
-    return spread(
-        judge->visibility(surface, comparison.judged, options.samples, kSeeds[k], progress.callback()),
-        comparison.judged, surface.size());
+  ReferenceResult result = trace_reference(*rays_, scene_.lights[light_].shape, surface_.receivers(), pixels,
+                                           {.samples = samples, .seed = seed}, false, progress.callback());
+  rays_traced_ += result.rays;
+  return std::move(result.visibility);
+}
+
+void SceneComparison::State::trace_references(const std::vector<std::uint32_t>& pixels) {
+  std::vector<std::uint32_t> missing;
+  std::ranges::copy_if(pixels, std::back_inserter(missing), [&](std::uint32_t i) { return !traced_[i]; });
+  if (missing.empty()) return;
+  const auto fill = [&](std::vector<float>& reference, int k) {
+    const std::vector<float> values =
+        trace(missing, options_.samples, kSeeds[k], "reference " + std::to_string(k + 1) + " of 2");
+    for (std::size_t j = 0; j < missing.size(); ++j) reference[missing[j]] = values[j];
   };
-  References references{.first = reference(0), .second = reference(1)};
-  const std::vector<float>& method = image.at(judged.channel());
-  comparison.samples = options.samples;
-  set_figures(comparison, method, references);
-  if (!judge && !comparison.penumbra.empty())
-    resample_worst(comparison, method, std::move(references), tracer);
-  comparison.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  fill(references_.first, 0);
+  fill(references_.second, 1);
+  for (const std::uint32_t i : missing) traced_[i] = true;
+}
+
+void SceneComparison::State::check_certificates(Comparison& comparison, const Image& image) const {
+  const std::string channel = judged_.light.empty() ? "region" : "region." + judged_.light;
+  if (!judge_ || !image.has(channel)) return;
+  const std::vector<float>& region = image.at(channel);
+  comparison.certified = static_cast<std::size_t>(std::ranges::count_if(
+      comparison.judged, [&](std::uint32_t i) { return region[i] == 0.0f || region[i] == 2.0f; }));
+  ProgressLine progress("certificates");
+  comparison.contradicted = judge_
+                                ->contradicted(surface_, comparison.judged, region, kCertificateSamples,
+                                               kSeeds[2], progress.callback())
+                                .size();
+}
+
+Comparison SceneComparison::State::compare(const Image& image) {
+  Comparison comparison;
+  comparison.judged = receivers(image, judged_);
+  if (surface_.size() == 0) see(image);
+  if (image.width != surface_.width || image.height != surface_.height)
+    throw UsageError("the images differ in size; render both with the same --size");
+  keep_those_of_scene(comparison, image);
+  if (judge_) {
+    std::vector<std::uint32_t> both;
+    std::ranges::set_intersection(comparison.judged, chosen_, std::back_inserter(both));
+    comparison.judged = std::move(both);
+  }
+  trace_references(comparison.judged);
+  const std::vector<float>& method = image.at(judged_.channel());
+  comparison.samples = options_.samples;
+  set_figures(comparison, method, references_);
+  if (!comparison.penumbra.empty())
+    resample_worst(
+        comparison, method, references_, [this](const auto&... what) { return trace(what...); },
+        judge_ ? kByOracle : kByRays);
+  check_certificates(comparison, image);
+  const auto now = std::chrono::steady_clock::now();
+  comparison.rays = std::exchange(rays_traced_, 0);
+  comparison.seconds = std::chrono::duration<double>(now - std::exchange(start_, now)).count();
   return comparison;
+}
+
+SceneComparison::SceneComparison(const Scene& scene, const Judged& judged, const TraceOptions& options)
+    : state_(std::make_unique<State>(scene, judged, options)) {}
+SceneComparison::~SceneComparison() = default;
+
+Comparison SceneComparison::compare(const Image& image) {
+  return state_->compare(image);
 }
 
 }  // namespace penumbra::apps

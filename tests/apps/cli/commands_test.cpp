@@ -227,6 +227,42 @@ TEST_F(CommandTest, CompareToSceneFindsTheNoiseOfFewSamples) {
   EXPECT_TRUE(read_text(file("p.png")).starts_with("\x89PNG"));
 }
 
+TEST_F(CommandTest, CompareByTheOracleJudgesErrorsAndCertificates) {
+  fine({"render", scene_, "--size", "96x72", "--output", path("s.exr")});
+  const Json report = Json::parse(
+      fine({"compare", path("s.exr"), scene_, "--judge", "double", "--samples", "256", "--json"}).out);
+  EXPECT_EQ(report["judge"], "double");
+  const Image drawn = read_exr(file("s.exr"));
+  EXPECT_EQ(report["all"]["pixels"].get<int>() + report["skipped_pixels"].get<int>(),
+            std::ranges::count_if(drawn.at("object"), [](float object) { return object >= 0.0f; }));
+  EXPECT_LT(report["penumbra"]["rmse"], 0.002);
+  EXPECT_GT(report["certified_pixels"], 1000);
+  EXPECT_EQ(report["contradicted_pixels"], 0);
+
+  // Lit pixels that claim to be in umbra, and a shadow that is not seen.
+  Image image = drawn;
+  int lit = 0;
+  for (float& region : image.channels.at("region"))
+    if (region == 0.0f && lit < 10) region = 2.0f, ++lit;
+  image.channels.at("visibility").assign(96 * 72, 1.0f);
+  write_exr(file("w.exr"), image);
+  const Json wrong = Json::parse(
+      fine({"compare", path("w.exr"), scene_, "--judge", "double", "--samples", "256", "--json"}).out);
+  EXPECT_EQ(wrong["contradicted_pixels"], lit);
+  EXPECT_GT(wrong["penumbra"]["rmse"], 0.3);
+}
+
+TEST_F(CommandTest, CompareByTheOracleMissesObjectsThatAreNotDrawn) {
+  fine({"render", scene_, "--method", "none", "--size", "64x48", "--output", path("n.exr")});
+  Image image = read_exr(file("n.exr"));
+  for (float& object : image.channels.at("object"))
+    if (object == 1.0f) object = -1.0f;
+  write_exr(file("m.exr"), image);
+  const Outcome outcome = run({"compare", path("m.exr"), scene_, "--judge", "double"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(outcome.err.find("not rendered from this scene"), std::string::npos) << outcome.err;
+}
+
 TEST_F(CommandTest, CompareRefusesAnotherScene) {
   fine({"render", scene_, "--method", "none", "--size", "64x48", "--output", path("n.exr")});
   const Outcome outcome = run({"compare", path("n.exr"), path("t.off")});
