@@ -77,7 +77,10 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
 
 void DBuffer::Impl::set_surface(const Receivers& surface) {
   std::vector<glm::vec4> positions = detail::receiver_positions(scene, frame_of_casters, surface);
-  const detail::ReceiverCloud receivers(positions);
+  std::vector<Vec3> present;
+  for (const glm::vec4& p : positions)
+    if (p.w != 0.0f) present.emplace_back(p);
+  const detail::ReceiverCloud receivers(std::move(present));
   for (detail::DBufferCaster& caster : casters) caster.planes.set_receivers(receivers);
   shading.set_surface(surface, std::move(positions), rays);
   gl::require_no_error(gl, "uploading the surface buffer");

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kMostFaces = 100, kMostPlanes = 16;
 constexpr std::size_t kPerBox = 64;
-constexpr double kRounding = 1e-12;  // in a frame of size 1: a box that is nearer by less is not looked into
-constexpr double kOnPlane = 1e-9;    // what rounding leaves between a face and its own plane
+constexpr double kRounding = 0x1p-46;  // over the largest coordinate
+constexpr double kOnPlane = 1e-9;      // what rounding leaves between a face and its own plane
 
 /// In front of the plane at least this far is every point of the disk; of a distant light so far at unit distance.
 double nearest_of_disk(const CircularLight& light, const Vec3& normal, double center_in_front) {
@@ -26,37 +26,42 @@ double nearest_of_disk(const CircularLight& light, const Vec3& normal, double ce
 
 }  // namespace
 
-ReceiverCloud::ReceiverCloud(std::span<const glm::vec4> positions)
-    : positions_(positions), boxes_((positions.size() + kPerBox - 1) / kPerBox) {
+ReceiverCloud::ReceiverCloud(std::vector<Vec3> positions)
+    : positions_(std::move(positions)), boxes_((positions_.size() + kPerBox - 1) / kPerBox) {
   tbb::parallel_for(std::size_t{0}, boxes_.size(), [&](std::size_t k) {
     Bounds bounds;
-    for (const glm::vec4& p :
-         positions.subspan(k * kPerBox, std::min(kPerBox, positions.size() - k * kPerBox)))
-      if (p.w != 0.0f) bounds.add(Vec3(p));
-    if (!bounds.empty()) boxes_[k] = {bounds.center(), 0.5 * (bounds.high - bounds.low), false};
+    for (std::size_t i = k * kPerBox; i < std::min((k + 1) * kPerBox, positions_.size()); ++i)
+      bounds.add(positions_[i]);
+    boxes_[k] = {bounds.center(), 0.5 * (bounds.high - bounds.low)};
   });
 }
 
 double ReceiverCloud::nearest_along(const Vec3& normal) const {
-  const Vec3 reach = glm::abs(normal);
+  const Vec3 steep = glm::abs(normal);
   const auto least_of = [&](const Box& box) {
-    return glm::dot(normal, box.middle) - glm::dot(reach, box.half);
+    return glm::dot(normal, box.middle) - glm::dot(steep, box.half);
   };
   double nearest = std::numeric_limits<double>::infinity();
   const auto look_into = [&](std::size_t k) {
-    for (const glm::vec4& p :
-         positions_.subspan(k * kPerBox, std::min(kPerBox, positions_.size() - k * kPerBox)))
-      if (p.w != 0.0f) nearest = std::min(nearest, glm::dot(normal, Vec3(p)));
+    for (std::size_t i = k * kPerBox; i < std::min((k + 1) * kPerBox, positions_.size()); ++i)
+      nearest = std::min(nearest, glm::dot(normal, positions_[i]));
   };
   // First where the nearest one is likely to be, so that most of the others need no look.
   std::size_t first = boxes_.size();
   double least = nearest;
   for (std::size_t k = 0; k < boxes_.size(); ++k)
-    if (!boxes_[k].empty && least_of(boxes_[k]) < least) least = least_of(boxes_[first = k]);
+    if (least_of(boxes_[k]) < least) least = least_of(boxes_[first = k]);
   if (first < boxes_.size()) look_into(first);
+  const double rounding = kRounding * reach();
   for (std::size_t k = 0; k < boxes_.size(); ++k)
-    if (!boxes_[k].empty && k != first && least_of(boxes_[k]) < nearest - kRounding) look_into(k);
+    if (k != first && least_of(boxes_[k]) < nearest - rounding) look_into(k);
   return nearest;
+}
+
+double ReceiverCloud::reach() const {
+  double most = 0.0;
+  for (const Box& box : boxes_) most = std::max(most, largest_component(glm::abs(box.middle) + box.half));
+  return most;
 }
 
 double CasterPlanes::Plane::in_front(const Vec3& p) const {
@@ -75,13 +80,16 @@ CasterPlanes::CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double 
     const Vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
     const double length = glm::length(normal);
     if (!(length > 0.0)) continue;
-    for (const double side : {1.0, -1.0}) add_plane(corners, side / length * normal, p[0]);
+    const double steep = (glm::distance(p[1], p[0]) + glm::distance(p[2], p[0])) / length;
+    for (const double side : {1.0, -1.0}) add_plane(corners, side / length * normal, p[0], steep);
   }
   if (planes_.size() > 2 * kMostPlanes) planes_.clear();
+  for (const Vec3& p : corners) extent_ = std::max(extent_, largest_component(p));
 }
 
-void CasterPlanes::add_plane(const std::vector<Vec3>& corners, const Vec3& normal, const Vec3& point) {
-  Plane plane{normal, glm::dot(normal, point), {}};
+void CasterPlanes::add_plane(const std::vector<Vec3>& corners, const Vec3& normal, const Vec3& point,
+                             double steep) {
+  Plane plane{.normal = normal, .offset = glm::dot(normal, point), .behind = {}, .steep = steep};
   const auto is_plane = [&](const Plane& other) {
     return glm::length(other.normal - plane.normal) + std::abs(other.offset - plane.offset) < kOnPlane;
   };
@@ -92,9 +100,14 @@ void CasterPlanes::add_plane(const std::vector<Vec3>& corners, const Vec3& norma
   planes_.push_back(std::move(plane));
 }
 
+/// Coordinates of corners round by u M, M the largest, hence the normal by u M · steep, and the value of a receiver by as much
+/// times its distance.
 void CasterPlanes::set_receivers(const ReceiverCloud& receivers) {
+  const double reach = receivers.reach();
   tbb::parallel_for(std::size_t{0}, planes_.size(), [&](std::size_t k) {
-    planes_[k].nearest = receivers.nearest_along(planes_[k].normal) - planes_[k].offset;
+    Plane& plane = planes_[k];
+    plane.nearest = receivers.nearest_along(plane.normal) - plane.offset;
+    plane.rounding = kRounding * (extent_ + reach + extent_ * plane.steep * (extent_ + reach));
   });
 }
 
@@ -108,7 +121,7 @@ bool CasterPlanes::cannot_occlude(const CircularLight& world, double slack) cons
   }
   std::vector<char> separated(faces_, 0);
   for (const Plane& plane : planes_) {
-    if (plane.nearest < -slack) continue;
+    if (plane.nearest < -slack - plane.rounding) continue;
     const double in_front = glm::dot(plane.normal, light.center) - light.weight * plane.offset;
     if (nearest_of_disk(light, plane.normal, in_front) < 0.0) continue;
     for (std::size_t f = 0; f < faces_; ++f) separated[f] = separated[f] || plane.behind[f];
@@ -119,17 +132,13 @@ bool CasterPlanes::cannot_occlude(const CircularLight& world, double slack) cons
 
 namespace {
 
-/// Every `step`-th receiver's, as CasterPlanes takes them.
-std::vector<glm::vec4> ray_origins(const RayFrame& frame, const Receivers& receivers, std::size_t step) {
-  std::vector<glm::vec4> out((receivers.size() + step - 1) / step, glm::vec4(0.0f));
-  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t k) {
-    const std::size_t i = k * step;
-    if (!receivers.is_present(i)) return;
-    Vec3 origin = frame.to_local(receivers.points[i]);
-    if (receivers.has_normals()) origin += kRayOffset * receivers.normals[i];
-    out[k] = glm::vec4(glm::vec3(origin), 1.0f);
-  });
-  return out;
+/// Every `step`-th receiver's point in the frame, of those that are present.
+ReceiverCloud cloud_of(const RayFrame& frame, const Receivers& receivers, std::size_t step) {
+  std::vector<Vec3> points;
+  points.reserve(receivers.size() / step + 1);
+  for (std::size_t i = 0; i < receivers.size(); i += step)
+    if (receivers.is_present(i)) points.push_back(frame.to_local(receivers.points[i]));
+  return ReceiverCloud(std::move(points));
 }
 
 }  // namespace
@@ -138,18 +147,16 @@ std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const Cir
                                                    const RayFrame& frame, const Receivers& receivers) {
   constexpr std::size_t kSome = 1009;  // a prime: spread over rows and columns
   std::vector<char> out(scene.objects.size(), 0);
-  std::vector<glm::vec4> some, all;  // when they are needed
-  std::optional<ReceiverCloud> cloud;
+  std::optional<ReceiverCloud> some, all;  // when they are needed
   for (std::size_t k = 0; k < out.size(); ++k) {
     if (!scene.objects[k].casts) continue;
     CasterPlanes planes(scene.objects[k].mesh, frame.origin, frame.scale);
     if (!planes.cannot_occlude(light)) continue;
-    if (some.empty()) some = ray_origins(frame, receivers, kSome);
-    planes.set_receivers(ReceiverCloud(some));  // rules most casters out at little cost
+    if (!some) some.emplace(cloud_of(frame, receivers, kSome));
+    planes.set_receivers(*some);  // rules most casters out at little cost
     if (!planes.cannot_occlude(light)) continue;
-    if (all.empty()) all = ray_origins(frame, receivers, 1);
-    if (!cloud) cloud.emplace(all);
-    planes.set_receivers(*cloud);
+    if (!all) all.emplace(cloud_of(frame, receivers, 1));
+    planes.set_receivers(*all);
     out[k] = planes.cannot_occlude(light);
   }
   return out;

@@ -5,9 +5,7 @@
 // over all of the floor.
 #pragma once
 
-#include <glm/vec4.hpp>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "penumbra/render/receivers/receivers.h"
@@ -19,18 +17,19 @@ namespace penumbra::detail {
 /// Receivers of an image, and boxes of some that follow each other.
 class ReceiverCloud {
  public:
-  /// The fourth number is 0 where nothing is seen; refers to the positions. Cost O(pixels), on all cores.
-  explicit ReceiverCloud(std::span<const glm::vec4> positions);
+  /// In the frame of the planes. Cost O(receivers), on all cores.
+  explicit ReceiverCloud(std::vector<Vec3> positions);
   /// The least of normal · p over all receivers p, to 1e-12; infinite without any. Cost O(boxes), and the
   /// receivers of a few.
   double nearest_along(const Vec3& normal) const;
+  /// The largest coordinate; 0 without any.
+  double reach() const;
 
  private:
   struct Box {
     Vec3 middle{0.0}, half{0.0};
-    bool empty = true;
   };
-  std::span<const glm::vec4> positions_;
+  std::vector<Vec3> positions_;
   std::vector<Box> boxes_;
 };
 
@@ -42,8 +41,8 @@ class CasterPlanes {
   CasterPlanes(const TriangleMesh& mesh, const Vec3& origin, double scale);
   /// Of the image, in the frame.
   void set_receivers(const ReceiverCloud& receivers);
-  /// True where every face is separated from the light and from the receivers by one of the planes; receivers
-  /// may lie behind it by `slack`, in the frame. Before receivers are set there are none. Cost O(1).
+  /// True where every face is separated from the light and from the receivers by one of the planes. Receivers may lie
+  /// behind it as far as double cannot tell, and by `slack`, in the frame. Before receivers are set there are none. Cost O(1).
   bool cannot_occlude(const CircularLight& light, double slack = 0.0) const;
 
  private:
@@ -52,18 +51,21 @@ class CasterPlanes {
     double offset;
     std::vector<char> behind;                                  ///< one per face: no point of it is in front
     double nearest = std::numeric_limits<double>::infinity();  ///< of the receivers, in front
+    double
+        steep;  ///< how much more than coordinates the normal rounds: the two sides of its face over their product
+    double rounding = 0.0;  ///< of `nearest`
     double in_front(const Vec3& p) const;
   };
-  void add_plane(const std::vector<Vec3>& corners, const Vec3& normal, const Vec3& point);
+  void add_plane(const std::vector<Vec3>& corners, const Vec3& normal, const Vec3& point, double steep);
 
   Vec3 origin_;
   double scale_;
   std::vector<Plane> planes_;  ///< each twice, once for either orientation; none where there are many
+  double extent_ = 0.0;        ///< the largest coordinate
   std::size_t faces_ = 0;
 };
 
-/// One flag an object: casters that hide nothing from the receivers, which are moved off their surfaces as
-/// the origins of rays are. Cost O(objects), and O(pixels) where a floor, wall or room casts.
+/// One flag an object: casters that hide nothing from the receivers. Cost O(objects), and O(pixels) where a floor, wall or room casts.
 std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const CircularLight& light,
                                                    const RayFrame& frame, const Receivers& receivers);
 

@@ -27,7 +27,7 @@ class Stand {
   explicit Stand(Scene of)
       : scene_(std::move(of)),
         rays_(scene_, 0),
-        hierarchies_(scene_, rays_.frame()),
+        hierarchies_(scene_),
         surface_(make_surface_buffer(scene_, rays_, 640, 480)) {}
   Stand(const Stand&) = delete;
 
@@ -79,7 +79,7 @@ CertifiedShares certified_shares(const Stand& stand, const std::vector<std::int8
   }
   for (const float o : stand.trace(open, 1024, true).unoccluded) may_be_umbra += o == 0.0f ? 1.0 : 0.0;
   const double lit =
-      testing::certified_share_of_free(stand.scene(), stand.rays(), stand.surface(), region, 5'000'000).share;
+      testing::certified_share_of_free(stand.scene(), stand.surface(), region, 5'000'000).share;
   return {lit, umbra + may_be_umbra > 0.0 ? umbra / (umbra + may_be_umbra) : 1.0};
 }
 

@@ -12,18 +12,22 @@ namespace {
 // Speed. Items that a task makes: vertices, edges, blocks. Seen in the benchmark `silhouette`, stage band.
 constexpr std::size_t kVerticesPerTask = 4096, kEdgesPerTask = 1024, kBlocksPerTask = 128;
 
-/// In front of the light's plane, in the light's frame.
-bool is_in_front(const Vec3& p) {
-  return p.z > 0.0;
-}
+/// Tells whether a point of the light's frame is in front of the light's plane (LitScene::depth).
+class FrontSide {
+ public:
+  explicit FrontSide(double depth) : depth_(depth) {}
+  bool operator()(const Vec3& p) const { return p.z > depth_; }
+  /// Where the segment between a point in front and one behind meets the plane; the same bits for both directions.
+  Vec3 cut(const Vec3& a, const Vec3& b) const {
+    const Vec3& front = (*this)(a) ? a : b;
+    const Vec3& back = (*this)(a) ? b : a;
+    const double t = (front.z - depth_) / (front.z - back.z);
+    return {front.x + t * (back.x - front.x), front.y + t * (back.y - front.y), depth_};
+  }
 
-/// Where the segment between a point in front and one behind meets the light's plane; the same bits for both directions.
-Vec3 cut_at_light(const Vec3& a, const Vec3& b) {
-  const Vec3& front = is_in_front(a) ? a : b;
-  const Vec3& back = is_in_front(a) ? b : a;
-  const double t = front.z / (front.z - back.z);
-  return {front.x + t * (back.x - front.x), front.y + t * (back.y - front.y), 0.0};
-}
+ private:
+  double depth_;
+};
 
 /// Takes positions to the light's frame.
 struct ToFrame {
@@ -38,8 +42,9 @@ class LitCaster {
   LitCaster(const LitScene& lit, std::size_t object)
       : mesh_(lit.scene.objects[object].mesh),
         to_frame_{lit.light},
+        is_in_front_(lit.depth),
         extent_(lit.extent),
-        all_in_front_(is_in_front(lit.boxes[object].low)) {
+        all_in_front_(is_in_front_(lit.boxes[object].low)) {
     if (!all_in_front_) find_front();
   }
 
@@ -60,8 +65,8 @@ class LitCaster {
   BandEdge edge(EdgeId id) const {
     BandEdge e = mesh_.edge(id, to_frame_, extent_);
     const Vec3 a = e.a, b = e.b;
-    if (!is_in_front(a)) e.a = cut_at_light(a, b);
-    if (!is_in_front(b)) e.b = cut_at_light(a, b);
+    if (!is_in_front_(a)) e.a = is_in_front_.cut(a, b);
+    if (!is_in_front_(b)) e.b = is_in_front_.cut(a, b);
     return e;
   }
 
@@ -72,7 +77,7 @@ class LitCaster {
     BandEdge e{Vec3(0.0), Vec3(0.0), mesh_.plane(face, to_frame_, extent_), kNoFace};
     for (int k = 0; k < 3; ++k) {
       const Vec3 &p = corners[k], &q = corners[(k + 1) % 3];
-      if (is_in_front(p) != is_in_front(q)) (is_in_front(p) ? e.a : e.b) = cut_at_light(p, q);
+      if (is_in_front_(p) != is_in_front_(q)) (is_in_front_(p) ? e.a : e.b) = is_in_front_.cut(p, q);
     }
     return e;
   }
@@ -83,12 +88,13 @@ class LitCaster {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, front_.size(), kVerticesPerTask),
                       [&](const auto& range) {
                         for (std::size_t i = range.begin(); i < range.end(); ++i)
-                          front_[i] = is_in_front(to_frame_(mesh_.positions[i]));
+                          front_[i] = is_in_front_(to_frame_(mesh_.positions[i]));
                       });
   }
 
   MeshArrays mesh_;
   ToFrame to_frame_;
+  FrontSide is_in_front_;
   double extent_;
   bool all_in_front_;
   /// For each vertex whether it is in front; empty where all are.

@@ -17,6 +17,14 @@ double extent_of(const Bounds& box, const UnitLight& light) {
   return extent;
 }
 
+/// Some roundings of the world's coordinates. Far from everything the light's plane is certain to be missed.
+double rounding_at_light(const Bounds& box, const UnitLight& light) {
+  if (light.is_projective() || box.empty()) return 0.0;
+  const double most = std::max(
+      {largest_component(box.low), largest_component(box.high), largest_component(light.light().center)});
+  return 0x1p-50 * most * light.per_radius();
+}
+
 }  // namespace
 
 LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const SceneEdges& edges,
@@ -25,12 +33,13 @@ LitScene::LitScene(const Scene& lit_scene, const UnitLight& unit_light, const Sc
       light(unit_light),
       cannot_occlude(flags),
       boxes(scene.objects.size()),
-      extent(extent_of(asked_about, light)) {
+      extent(extent_of(asked_about, light)),
+      depth(rounding_at_light(asked_about, light)) {
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const SceneObject& object = scene.objects[i];
     if (!object.casts || object.mesh.empty() || (!cannot_occlude.empty() && cannot_occlude[i])) continue;
     boxes[i] = edges.points(i).box_in(light);
-    all_in_front = all_in_front && boxes[i].low.z > 0.0;
+    all_in_front = all_in_front && boxes[i].low.z > depth;
   }
 }
 

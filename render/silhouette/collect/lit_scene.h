@@ -27,6 +27,8 @@ struct LitScene {
   std::vector<Bounds> boxes;
   /// The largest absolute coordinate of what is asked about; at least 1.
   double extent = 1.0;
+  /// What lies nearer to the light's plane is in it as far as double can tell, and hides nothing.
+  double depth;
   /// All casters lie in front of the light's plane.
   bool all_in_front = true;
 

@@ -89,9 +89,8 @@ struct LitShare {
 };
 
 /// At most `work` pairs of pixels and faces.
-inline LitShare certified_share_of_free(const Scene& scene, const RayScene& rays,
-                                        const SurfaceBuffer& surface, const std::vector<std::int8_t>& region,
-                                        std::size_t work) {
+inline LitShare certified_share_of_free(const Scene& scene, const SurfaceBuffer& surface,
+                                        const std::vector<std::int8_t>& region, std::size_t work) {
   const FaceOverlap faces(scene);
   std::vector<std::uint32_t> open, lit;
   for (std::uint32_t i = 0; i < region.size(); ++i)

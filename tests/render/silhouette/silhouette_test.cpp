@@ -323,7 +323,7 @@ TEST(Silhouette, CertifiesWhatNoFaceOverlaps) {
     const RayScene rays(scene, 0);
     const SurfaceBuffer surface = make_surface_buffer(scene, rays, 160, 120);
     const SilhouetteResult r = testing::see_silhouettes(scene, rays, surface);
-    const testing::LitShare lit = testing::certified_share_of_free(scene, rays, surface, r.region, 3'000'000);
+    const testing::LitShare lit = testing::certified_share_of_free(scene, surface, r.region, 3'000'000);
     std::printf("%-16s %.4f of what no face overlaps is certified lit (%zu pixels without certificate)\n",
                 name, lit.share, lit.tested);
     EXPECT_GE(lit.share, 0.97) << name;
