@@ -6,52 +6,13 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <numbers>
 
+#include "apps/viewer/light_panel.h"
 #include "apps/viewer/state/method_settings.h"
-#include "mesh/vectors.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-using Places = std::map<std::string, PicturePoint>;
-
-void note_place(Places& places, const std::string& name) {
-  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  places[name] = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y)};
-}
-
-void help_on_hover(const std::string& text) {
-  if (!ImGui::IsItemHovered() || text.empty()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(320.0f);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
-bool slider(Places& places, const char* label, double& value, double low, double high, const char* format,
-            ImGuiSliderFlags flags = 0) {
-  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &low, &high, format,
-                                           flags | ImGuiSliderFlags_AlwaysClamp);
-  note_place(places, label);
-  return changed;
-}
-
-bool combo(const char* label, std::string& value, const std::vector<std::string>& words) {
-  bool changed = false;
-  if (!ImGui::BeginCombo(label, value.c_str())) return false;
-  for (const std::string& word : words)
-    if (ImGui::Selectable(word.c_str(), word == value)) {
-      value = word;
-      changed = true;
-    }
-  ImGui::EndCombo();
-  return changed;
-}
 
 // One setting as a combo or a number; its schema decides whether a value is accepted.
 void setting_widget(RenderOptions& options, const OptionSchema& option, int& revision) {
@@ -123,54 +84,6 @@ void methods_section(State& state, Places& places) {
   slider(places, "exposure", state.exposure, -6.0, 6.0, "%+.1f stops");
 }
 
-// Tilt from straight down and the compass direction it leans to; the normal changes only where a slider
-// moves.
-void tilt_sliders(DiskLight& light, Places& places) {
-  const Vec3 n = detail::unit(light.normal);
-  double tilt = kDegrees * std::acos(std::clamp(-n.y, -1.0, 1.0));
-  double turn = std::hypot(n.x, n.z) > 1e-9 ? kDegrees * std::atan2(n.x, n.z) : 0.0;
-  bool changed = slider(places, "tilt", tilt, 0.0, 180.0, "%.1f deg from down");
-  changed |= slider(places, "turn", turn, -180.0, 180.0, "%.1f deg about y");
-  if (!changed) return;
-  tilt = std::clamp(tilt, 0.01, 179.99);  // so that the turn is not forgotten
-  const double level = std::sin(tilt / kDegrees);
-  light.normal = {level * std::sin(turn / kDegrees), -std::cos(tilt / kDegrees),
-                  level * std::cos(turn / kDegrees)};
-}
-
-// Which of several lights is edited.
-void light_choice(State& state, Places& places) {
-  if (state.lights.size() < 2) return;
-  std::vector<std::string> names;
-  for (const Light& light : state.lights) names.push_back(light.name);
-  std::string chosen = names[state.selected];
-  if (combo("light", chosen, names))
-    state.selected = static_cast<std::size_t>(std::find(names.begin(), names.end(), chosen) - names.begin());
-  note_place(places, "light choice");
-}
-
-void light_section(State& state, Places& places) {
-  if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  light_choice(state, places);
-  const Bounds bounds =
-      state.model->caster_bounds().empty() ? state.model->bounds() : state.model->caster_bounds();
-  const double size = std::max(bounds.radius(), 1e-6);
-  const Vec3 middle = bounds.center();
-  DiskLight light = state.light();
-  const DiskLight before = light;
-  slider(places, "x", light.center.x, middle.x - 6.0 * size, middle.x + 6.0 * size, "%.3f units");
-  slider(places, "y", light.center.y, middle.y - 6.0 * size, middle.y + 6.0 * size, "%.3f units");
-  slider(places, "z", light.center.z, middle.z - 6.0 * size, middle.z + 6.0 * size, "%.3f units");
-  tilt_sliders(light, places);
-  slider(places, "radius", light.radius, 0.0, 2.0 * size, "%.3f units");
-  if (light != before) state.set_light(light);
-  Vec3& radiance = state.lights[state.selected].radiance;
-  double brightest = std::max({radiance.x, radiance.y, radiance.z});
-  const Vec3 hue = brightest > 0.0 ? radiance / brightest : Vec3(1.0);
-  if (slider(places, "radiance", brightest, 0.01, 1000.0, "%.3g W/(m2 sr)", ImGuiSliderFlags_Logarithmic))
-    radiance = hue * brightest;
-}
-
 void overlay_box(const char* label, Command command, bool& flag, Places& places) {
   ImGui::Checkbox(label, &flag);
   note_place(places, label);
@@ -210,6 +123,8 @@ void overlays_section(State& state, Places& places) {
   note_place(places, "textures");
   help_on_hover("what the D-buffer or the occlusion textures hold, as the light sees it");
   if (o.sheets || o.penumbra || o.umbra) cut_widgets(o, places);
+  if (o.geometry() && std::holds_alternative<DistantLight>(state.shape()))
+    ImGui::TextWrapped("faces, silhouettes and volumes are for disk and rectangle lights");
 }
 
 void stage_bars(const RenderResult& result) {

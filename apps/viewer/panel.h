@@ -1,13 +1,12 @@
 // The panel beside the picture: methods, light, overlays, costs, files.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
 #include "apps/viewer/commands.h"
-#include "apps/viewer/handles/projection.h"
 #include "apps/viewer/state/state.h"
+#include "apps/viewer/widgets.h"
 #include "apps/viewer/work/costs.h"
 #include "apps/viewer/work/render_worker.h"
 
@@ -28,10 +27,10 @@ class Panel {
   /// Draws the panel and changes the state as its widgets are used. A button's command is returned.
   std::optional<Command> draw(State& state, const PanelInput& input);
   /// Centers of the widgets drawn last, by label, in window pixels: for scripts.
-  const std::map<std::string, PicturePoint>& places() const { return places_; }
+  const Places& places() const { return places_; }
 
  private:
-  std::map<std::string, PicturePoint> places_;
+  Places places_;
 };
 
 }  // namespace penumbra::viewer

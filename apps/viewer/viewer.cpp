@@ -239,7 +239,7 @@ void Viewer::obey_view(Command command) {
     case Command::kFrameAll:
     case Command::kFrameLight: {
       Bounds bounds = state_.model->caster_bounds();
-      if (command == Command::kFrameLight) bounds.add(state_.light().center);
+      if (command == Command::kFrameLight) bounds.add(state_.handled().disk.center);
       state_.camera = framed(state_.camera, bounds, width, height);
       break;
     }

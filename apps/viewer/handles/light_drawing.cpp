@@ -13,7 +13,6 @@ constexpr ImU32 kYellow = IM_COL32(255, 214, 64, 255), kOutline = IM_COL32(20, 2
 constexpr ImU32 kMarked = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kAxisColors[3] = {IM_COL32(235, 72, 72, 255), IM_COL32(86, 200, 86, 255),
                                   IM_COL32(84, 136, 250, 255)};
-constexpr Handle kAxes[3] = {Handle::kAxisX, Handle::kAxisY, Handle::kAxisZ};
 
 ImVec2 place(const PicturePoint& p) {
   return {static_cast<float>(p.x), static_cast<float>(p.y)};
@@ -76,9 +75,9 @@ void draw_pointer_to_light(ImDrawList& list, const Vec3& center, const Projectio
 
 }  // namespace
 
-void draw_light(ImDrawList& list, const DiskLight& light, const Projection& projection, Handle marked) {
+void draw_light(ImDrawList& list, const HandledLight& light, const Projection& projection, Handle marked) {
   const ImVec2 low = list.GetClipRectMin(), high = list.GetClipRectMax();
-  draw_pointer_to_light(list, light.center, projection, {high.x - low.x, high.y - low.y});
+  draw_pointer_to_light(list, light.disk.center, projection, {high.x - low.x, high.y - low.y});
   const HandleShape shape = handle_shape(light, projection);
   const Pen pen(list, projection);
   const auto color = [&](Handle handle, ImU32 usual) { return handle == marked ? kMarked : usual; };
@@ -86,15 +85,16 @@ void draw_light(ImDrawList& list, const DiskLight& light, const Projection& proj
   for (std::size_t i = 0; i < shape.rim.size(); ++i)
     pen.line(shape.rim[i], shape.rim[(i + 1) % shape.rim.size()], color(Handle::kRim, kYellow),
              width(Handle::kRim));
-  for (std::size_t k = 0; k < 3; ++k) {
-    const ImU32 axis = color(kAxes[k], kAxisColors[k]);
-    pen.line(shape.center, shape.axis_tips[k], axis, width(kAxes[k]));
+  for (std::size_t k = 0; k < shape.axis_tips.size(); ++k) {
+    const ImU32 axis = color(kAxisHandles[k], kAxisColors[k]);
+    pen.line(shape.center, shape.axis_tips[k], axis, width(kAxisHandles[k]));
     pen.knob(shape.axis_tips[k], axis, 5.0f);
     constexpr const char* kLetters[3] = {"x", "y", "z"};
     pen.letter(shape.axis_tips[k], kLetters[k], axis);
   }
   pen.line(shape.center, shape.normal_tip, color(Handle::kNormal, kYellow), width(Handle::kNormal));
   pen.knob(shape.normal_tip, color(Handle::kNormal, kYellow), 6.0f);
+  if (light.middle) pen.line(shape.center, shape.rim_knob, color(Handle::kRim, kYellow), 1.0f);
   pen.knob(shape.rim_knob, color(Handle::kRim, kYellow), 5.0f);
   pen.knob(shape.center, color(Handle::kCenter, IM_COL32(255, 240, 200, 255)), 5.0f);
 }

@@ -8,6 +8,6 @@ struct ImDrawList;
 namespace penumbra::viewer {
 
 /// `marked` is drawn brighter and thicker.
-void draw_light(ImDrawList& list, const DiskLight& light, const Projection& projection, Handle marked);
+void draw_light(ImDrawList& list, const HandledLight& light, const Projection& projection, Handle marked);
 
 }  // namespace penumbra::viewer

@@ -67,31 +67,35 @@ const char* name_of(Handle handle) {
   return kNames[static_cast<std::size_t>(handle)];
 }
 
-HandleShape handle_shape(const DiskLight& light, const Projection& projection) {
+HandleShape handle_shape(const HandledLight& light, const Projection& projection) {
+  const DiskLight& disk = light.disk;
   HandleShape shape;
-  shape.center = light.center;
-  const double arm = kArrow * projection.units_per_pixel(light.center);
-  for (int k = 0; k < 3; ++k) {
-    shape.axis_tips[static_cast<std::size_t>(k)] = light.center;
-    shape.axis_tips[static_cast<std::size_t>(k)][k] += arm;
+  shape.center = disk.center;
+  const double arm = kArrow * projection.units_per_pixel(disk.center);
+  for (int k = 0; k < 3 && !light.middle; ++k) {
+    shape.axis_tips.push_back(disk.center);
+    shape.axis_tips.back()[k] += arm;
   }
-  const LightFrame frame = light_frame(light);
-  shape.normal_tip = light.center + arm * frame.w;
+  const LightFrame frame = light_frame(disk);
+  shape.normal_tip = disk.center + arm * frame.w;
   for (int i = 0; i < kRimCorners; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kRimCorners;
-    shape.rim.push_back(light.center +
-                        light.radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v));
+    shape.rim.push_back(disk.center + disk.radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v));
   }
   // The corner furthest to the left in the picture: away from the arrows to the right.
   shape.rim_knob = *std::min_element(shape.rim.begin(), shape.rim.end(), [&](const Vec3& a, const Vec3& b) {
     return glm::dot(a, projection.right()) < glm::dot(b, projection.right());
   });
+  if (light.middle) {
+    const Vec3 left = glm::cross(frame.w, glm::cross(-projection.right(), frame.w));
+    shape.rim_knob = disk.center +
+                     (disk.radius + 0.5 * arm) * (glm::length(left) > kFlat ? glm::normalize(left) : frame.u);
+  }
   return shape;
 }
 
 Handle pick(const HandleShape& shape, const Projection& projection, const PicturePoint& pointer,
             double reach) {
-  constexpr std::array kAxes{Handle::kAxisX, Handle::kAxisY, Handle::kAxisZ};
   Handle best = Handle::kNone;
   double nearest = reach;
   const auto offer = [&](Handle handle, double pixels) {
@@ -102,60 +106,68 @@ Handle pick(const HandleShape& shape, const Projection& projection, const Pictur
   };
   offer(Handle::kNormal, reach_to(projection, shape.normal_tip, pointer));
   offer(Handle::kRim, reach_to(projection, shape.rim_knob, pointer));
-  for (std::size_t k = 0; k < 3; ++k) offer(kAxes[k], reach_to(projection, shape.axis_tips[k], pointer));
+  const std::size_t axes = shape.axis_tips.size();
+  for (std::size_t k = 0; k < axes; ++k)
+    offer(kAxisHandles[k], reach_to(projection, shape.axis_tips[k], pointer));
   if (best != Handle::kNone) return best;
   offer(Handle::kCenter, reach_to(projection, shape.center, pointer));
   if (best != Handle::kNone) return best;
-  for (std::size_t k = 0; k < 3; ++k)
-    offer(kAxes[k], reach_to(projection, shape.center, shape.axis_tips[k], pointer));
+  for (std::size_t k = 0; k < axes; ++k)
+    offer(kAxisHandles[k], reach_to(projection, shape.center, shape.axis_tips[k], pointer));
   if (best != Handle::kNone) return best;
   for (std::size_t i = 0; i < shape.rim.size(); ++i)
     offer(Handle::kRim, reach_to(projection, shape.rim[i], shape.rim[(i + 1) % shape.rim.size()], pointer));
   return best;
 }
 
-HandleDrag::HandleDrag(Handle handle, const DiskLight& light, const Projection& projection,
+HandleDrag::HandleDrag(Handle handle, const HandledLight& light, const Projection& projection,
                        const PicturePoint& start)
     : handle_(handle),
       start_(light),
-      arm_(kArrow * projection.units_per_pixel(light.center)),
+      arm_(kArrow * projection.units_per_pixel(light.disk.center)),
       start_grip_(grip(projection, start)) {}
 
 std::optional<Vec3> HandleDrag::grip(const Projection& projection, const PicturePoint& pointer) const {
-  const Vec3& eye = projection.eye();
+  const Vec3 &eye = projection.eye(), &center = start_.disk.center;
   const Vec3 direction = projection.direction(pointer);
-  const Vec3 normal = light_frame(start_).w;
+  const Vec3 normal = light_frame(start_.disk).w;
   switch (handle_) {
     case Handle::kAxisX:
     case Handle::kAxisY:
     case Handle::kAxisZ:
-      return on_axis(eye, direction, start_.center, axis_of(handle_));
+      return on_axis(eye, direction, center, axis_of(handle_));
     case Handle::kCenter:
-      return on_plane(eye, direction, start_.center, projection.forward());
+      return start_.middle
+                 ? on_sphere(eye, direction, *start_.middle, glm::length(center - *start_.middle), center)
+                 : on_plane(eye, direction, center, projection.forward());
     case Handle::kRim: {
-      const auto hit = on_plane(eye, direction, start_.center, normal);
-      return hit ? hit : on_plane(eye, direction, start_.center, projection.forward());
+      const auto hit = on_plane(eye, direction, center, normal);
+      return hit ? hit : on_plane(eye, direction, center, projection.forward());
     }
     case Handle::kNormal:
-      return on_sphere(eye, direction, start_.center, arm_, start_.center + arm_ * normal);
+      return on_sphere(eye, direction, center, arm_, center + arm_ * normal);
     case Handle::kNone:
       break;
   }
   return std::nullopt;
 }
 
-DiskLight HandleDrag::moved_to(const Projection& projection, const PicturePoint& pointer) const {
+HandledLight HandleDrag::moved_to(const Projection& projection, const PicturePoint& pointer) const {
   const auto now = grip(projection, pointer);
   if (!now || !start_grip_) return start_;
-  DiskLight light = start_;
+  HandledLight light = start_;
+  DiskLight& disk = light.disk;
   if (handle_ == Handle::kRim) {
-    const double before = glm::length(*start_grip_ - start_.center);
-    light.radius = std::max(0.0, start_.radius + glm::length(*now - start_.center) - before);
+    const double before = glm::length(*start_grip_ - start_.disk.center);
+    disk.radius = std::max(0.0, start_.disk.radius + glm::length(*now - start_.disk.center) - before);
   } else if (handle_ == Handle::kNormal) {
-    light.normal = unit(*now - start_.center);
+    disk.normal = unit(*now - start_.disk.center);
   } else {
-    light.center = start_.center + (*now - *start_grip_);
+    disk.center = start_.disk.center + (*now - *start_grip_);
+    if (light.middle && *now != *start_grip_) disk.normal = unit(*light.middle - disk.center);
   }
+  if (light.middle && disk.normal != start_.disk.normal)
+    disk.center = *light.middle - glm::length(start_.disk.center - *light.middle) * disk.normal;
   return light;
 }
 

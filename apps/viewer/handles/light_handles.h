@@ -1,5 +1,8 @@
 // Handles by which the light is moved, tilted and resized in the picture.
 //
+// A distant light has no place: it is turned by its center, which slides over a sphere around the casters, and by its
+// normal; its rim changes its angle.
+//
 // In: light, projection. Out: where the handles are seen, which one is under the pointer, and the light after
 // a drag. No drawing and no window here.
 #pragma once
@@ -8,23 +11,26 @@
 #include <optional>
 #include <vector>
 
+#include "apps/viewer/handles/handled_light.h"
 #include "apps/viewer/handles/projection.h"
-#include "penumbra/volumes/disk_light.h"
 
 namespace penumbra::viewer {
 
 enum class Handle { kNone, kAxisX, kAxisY, kAxisZ, kCenter, kRim, kNormal };
+inline constexpr std::array kAxisHandles{Handle::kAxisX, Handle::kAxisY, Handle::kAxisZ};
 const char* name_of(Handle handle);
 
 /// Places in the world, sized so that arrows are about equally long in the picture wherever the light is.
 struct HandleShape {
   Vec3 center;
-  std::array<Vec3, 3> axis_tips;
+  std::vector<Vec3> axis_tips;  ///< three, none for a distant light
   Vec3 normal_tip;
-  Vec3 rim_knob;          ///< where the rim's knob is drawn; the whole rim can be dragged
+  Vec3
+      rim_knob;  ///< where the rim's knob is drawn, for a distant light outside of its small rim; the whole rim
+                 ///< can be dragged
   std::vector<Vec3> rim;  ///< closed polygon, the first corner not repeated
 };
-HandleShape handle_shape(const DiskLight& light, const Projection& projection);
+HandleShape handle_shape(const HandledLight& light, const Projection& projection);
 
 /// The handle within `reach` pixels of the pointer: tips and center before axes before the rim.
 Handle pick(const HandleShape& shape, const Projection& projection, const PicturePoint& pointer,
@@ -33,17 +39,18 @@ Handle pick(const HandleShape& shape, const Projection& projection, const Pictur
 /// A drag from press to release. The light follows the pointer without a jump at the start.
 class HandleDrag {
  public:
-  HandleDrag(Handle handle, const DiskLight& light, const Projection& projection, const PicturePoint& start);
+  HandleDrag(Handle handle, const HandledLight& light, const Projection& projection,
+             const PicturePoint& start);
   Handle handle() const { return handle_; }
   /// The light for this place of the pointer; the light at the start where the drag has no meaning there (its
   /// axis along the line of sight, say).
-  DiskLight moved_to(const Projection& projection, const PicturePoint& pointer) const;
+  HandledLight moved_to(const Projection& projection, const PicturePoint& pointer) const;
 
  private:
   std::optional<Vec3> grip(const Projection& projection, const PicturePoint& pointer) const;
 
   Handle handle_;
-  DiskLight start_;
+  HandledLight start_;
   double arm_;  ///< length of the normal's arrow, scene units
   std::optional<Vec3> start_grip_;
 };

@@ -40,7 +40,7 @@ void Pointer::update(State& state, const Frame* frame) {
   at_ = ours || dragging() ? std::optional(pointer) : std::nullopt;
   if (!dragging()) {
     hovered_ = ours && state.overlays.light
-                   ? pick(handle_shape(state.light(), projection), projection, pointer)
+                   ? pick(handle_shape(state.handled(), projection), projection, pointer)
                    : Handle::kNone;
     over_divider_ = ours && state.arrangement == Arrangement::kSplit && hovered_ == Handle::kNone &&
                     std::abs(pointer.x - state.divider * width) < kDividerReach;
@@ -64,7 +64,7 @@ void Pointer::press(const State& state, const Projection& projection, int button
     drag_ = Drag::kPan;
   } else if (hovered_ != Handle::kNone) {
     drag_ = Drag::kHandle;
-    held_.emplace(hovered_, state.light(), projection, *at_);
+    held_.emplace(hovered_, state.handled(), projection, *at_);
   } else {
     drag_ = over_divider_ ? Drag::kDivider : Drag::kRotate;
   }
@@ -80,7 +80,7 @@ void Pointer::drag(State& state, const Projection& projection, double x_pixels, 
       state.camera = panned(state.camera, width, height, x_pixels, y_pixels);
       break;
     case Drag::kHandle:
-      state.set_light(held_->moved_to(projection, *at_));
+      state.set_handled(held_->moved_to(projection, *at_));
       break;
     case Drag::kDivider:
       state.divider = std::clamp(at_->x / width, 0.02, 0.98);

@@ -8,32 +8,42 @@
 namespace penumbra::viewer {
 namespace {
 
-constexpr double kExtent = 1.25;   // of the picture's half side, in radii
-constexpr double kNearest = 1e-5;  // of the height: parts of casters closer to x or to the light are cut off
+constexpr double kExtent = 1.25;  // of the picture's half side, in radii
 
 struct Point2 {
   double x, y;
 };
 using Polygon = std::vector<Point2>;
 
+/// In the light's frame, as everything here: u, v and the height towards the light.
+///
+/// A point at d = (u, v, h) from the receiver is seen at q = a + k (u, v)/h in radii, where a is the receiver's place
+/// beside the axis and k its distance from the light's plane, both in radii: 0 and 1/tan(angle/2) for a distant light.
 class DiskRaster {
  public:
-  DiskRaster(const DiskLight& light, const Vec3& x, int size)
+  DiskRaster(const AreaLight& light, const Vec3& x, int size)
       : light_(light),
-        frame_(light_frame(light)),
         x_(x),
+        place_(light.to_light(x) / light.half.x),
         size_(size),
         covered_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size)) {}
 
-  double height(const Vec3& p) const { return glm::dot(p - light_.center, frame_.w); }
-
   void add(const std::array<Vec3, 3>& corners) {
-    const double top = height(x_);
-    std::vector<Vec3> part(corners.begin(), corners.end());
-    part = clipped(part, [&](const Vec3& p) { return height(p) - kNearest * top; });
-    part = clipped(part, [&](const Vec3& p) { return (1.0 - kNearest) * top - height(p); });
+    std::vector<Vec3> part;
+    for (const Vec3& p : corners) {
+      const Vec3 d = light_.direction_to_light(p - x_);
+      part.push_back({d.x, d.y, -d.z});
+    }
+    // The pyramid over the picture with its tip at the receiver, then what is not beyond the light.
+    for (const double side : {1.0, -1.0})
+      for (const int k : {0, 1})
+        part = clipped(part, [&](const Vec3& d) {
+          return (2.0 * kExtent - side * place_[k]) * d.z - side * place_.z * d[k];
+        });
+    if (!light_.distant) part = clipped(part, [&](const Vec3& d) { return place_.z * light_.half.x - d.z; });
     Polygon polygon;
-    for (const Vec3& p : part) polygon.push_back(projected(p, top));
+    for (const Vec3& d : part)
+      if (d.z > 0.0) polygon.push_back({place_.x + place_.z * d.x / d.z, place_.y + place_.z * d.y / d.z});
     if (polygon.size() > 2) fill(polygon);
   }
   bool covered(int column, int row) const {
@@ -44,8 +54,9 @@ class DiskRaster {
   Point2 place(int column, int row) const {
     return {kExtent * (2.0 * (column + 0.5) / size_ - 1.0), kExtent * (1.0 - 2.0 * (row + 0.5) / size_)};
   }
-  Vec3 world(const Point2& q) const {
-    return light_.center + light_.radius * (q.x * frame_.u + q.y * frame_.v);
+  /// From the receiver to a point of the light's plane.
+  Vec3 way_to(const Point2& q) const {
+    return light_.from_receiver(x_) + light_.half.x * (q.x * light_.axes.u + q.y * light_.axes.v);
   }
 
  private:
@@ -62,11 +73,6 @@ class DiskRaster {
       if ((from < 0.0) != (to < 0.0)) out.push_back(a + (b - a) * (from / (from - to)));
     }
     return out;
-  }
-  // Along the ray from x through p to the light's plane.
-  Point2 projected(const Vec3& p, double top) const {
-    const Vec3 q = x_ + (p - x_) * (top / (top - height(p))) - light_.center;
-    return {glm::dot(q, frame_.u) / light_.radius, glm::dot(q, frame_.v) / light_.radius};
   }
   int clamped_pixel(double at) const {
     return static_cast<int>(std::clamp((at / kExtent + 1.0) * 0.5 * size_, -1.0, size_ + 1.0));
@@ -96,16 +102,15 @@ class DiskRaster {
         if (inside(place(column, row))) covered_[index(column, row)] = 1;
   }
 
-  const DiskLight& light_;
-  LightFrame frame_;
-  Vec3 x_;
+  const AreaLight& light_;
+  Vec3 x_, place_;
   int size_;
   std::vector<unsigned char> covered_;
 };
 
 using Color = std::array<unsigned char, 3>;
 
-Color color_at(const DiskRaster& raster, const Vec3& x, const Vec3& n, int column, int row) {
+Color color_at(const DiskRaster& raster, const Vec3& n, int column, int row) {
   const Point2 q = raster.place(column, row);
   const double distance = std::hypot(q.x, q.y);
   const bool covered = raster.covered(column, row);
@@ -117,25 +122,28 @@ Color color_at(const DiskRaster& raster, const Vec3& x, const Vec3& n, int colum
     return std::abs(distance - 1.0) < 0.02 ? Color{255, 214, 64}
            : covered                       ? Color{38, 38, 44}
                                            : Color{58, 58, 62};
-  if (glm::dot(raster.world(q) - x, n) <= 0.0) return {92, 62, 40};
+  if (glm::dot(raster.way_to(q), n) <= 0.0) return {92, 62, 40};
   return covered ? Color{28, 34, 70} : Color{255, 246, 214};
 }
 
 }  // namespace
 
-Pixels disk_seen_from(const Scene& scene, const DiskLight& light, const Vec3& x, const Vec3& n, int size) {
-  if (!(light.radius > 0.0) || is_behind(light, x)) return {};
-  DiskRaster raster(light, x, size);
-  for (const SceneObject& object : scene.objects) {
-    if (!object.casts) continue;
-    const auto positions = object.mesh.positions();
-    for (const IndexedTriangle& t : object.mesh.triangles())
-      raster.add({positions[t[0]], positions[t[1]], positions[t[2]]});
+Pixels disk_seen_from(const Scene& scene, const AreaLight& light, const Viewpoint& from, int size) {
+  if (!(light.half.x > 0.0) || light.is_behind(from.position)) return {};
+  DiskRaster raster(light, from.position, size);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const TriangleMesh& mesh = scene.objects[i].mesh;
+    if (!scene.objects[i].casts) continue;
+    for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
+      if (static_cast<std::int32_t>(i) == from.object && f == from.face) continue;
+      const IndexedTriangle& t = mesh.triangles()[f];
+      raster.add({mesh.positions()[t[0]], mesh.positions()[t[1]], mesh.positions()[t[2]]});
+    }
   }
   Pixels pixels{size, size, {}};
   for (int row = 0; row < size; ++row)
     for (int column = 0; column < size; ++column)
-      for (const unsigned char part : color_at(raster, x, n, column, row)) pixels.rgb.push_back(part);
+      for (const unsigned char part : color_at(raster, from.normal, column, row)) pixels.rgb.push_back(part);
   return pixels;
 }
 

@@ -143,10 +143,10 @@ bool OverlayMaker::fits(const State& state) const {
 std::shared_ptr<const OverlayGeometry> OverlayMaker::update(const State& state) {
   if (task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     ready_ = task_.get();
-  if (!state.overlays.geometry()) return nullptr;
+  if (!state.overlays.geometry() || std::holds_alternative<DistantLight>(state.shape())) return nullptr;
   if (!task_.valid() && !fits(state)) {
     made_for_ = state;
-    task_ = std::async(std::launch::async, [scene = current_scene(state), light = state.light(),
+    task_ = std::async(std::launch::async, [scene = current_scene(state), light = state.handled().disk,
                                             wanted = state.overlays, wake = wake_] {
       auto made = std::make_shared<const OverlayGeometry>(make_overlay_geometry(scene, light, wanted));
       wake();

@@ -47,8 +47,8 @@ struct Cut {
 Cut cut_of(const State& state, const OverlayGeometry& g) {
   const Overlays& o = state.overlays;
   if (o.cut_axis == CutAxis::kLight) {
-    const Vec3 normal = light_frame(state.light()).w;
-    return {normal, glm::dot(g.origin - state.light().center, normal), o.cut * g.reach};
+    const Vec3 normal = light_frame(state.handled().disk).w;
+    return {normal, glm::dot(g.origin - state.handled().disk.center, normal), o.cut * g.reach};
   }
   Vec3 normal(0.0);
   normal[static_cast<int>(o.cut_axis) - static_cast<int>(CutAxis::kX)] = 1.0;

@@ -119,7 +119,7 @@ void PictureView::draw_marks(const State& state, const Pointer& pointer, bool se
   const auto width = static_cast<float>(state.left.width), height = static_cast<float>(state.left.height);
   list.PushClipRect({0, 0}, {width, height});
   if (state.overlays.light)
-    draw_light(list, state.light(), Projection(state.camera, state.left.width, state.left.height),
+    draw_light(list, state.handled(), Projection(state.camera, state.left.width, state.left.height),
                pointer.handle());
   if (frame_ && frame_->sides.size() == 2 && state.arrangement == Arrangement::kSplit) {
     const auto x = static_cast<float>(std::round(state.divider * state.left.width));

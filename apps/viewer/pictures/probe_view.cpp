@@ -7,7 +7,6 @@
 
 #include "apps/viewer/pictures/disk_view.h"
 #include "render/light/light_integrals.h"
-#include "render/rays/ray_scene.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -21,11 +20,11 @@ ProbeAnswer answer_for(const Scene& scene, const Casters& casters, const LightSh
   const MethodResult traced =
       visibility(casters, light, point.receivers(),
                  {.method = "reference", .options = {{"samples", std::uint64_t{kRays}}}});
-  const DiskLight disk = disk_around(light);
-  const Vec3 start = x + n * (kRayOffset / ray_frame(scene).scale);  // where the rays start
-  return {.disk = disk_seen_from(scene, disk, start, n, kSide),
+  const AreaLight area = area_light(light);
+  return {.disk = disk_seen_from(scene, area.disk ? area : area_light(disk_around(light)),
+                                 {x, n, point.object.front(), point.face.front()}, kSide),
           .by_rays = double{traced.visibility.front()},
-          .above_horizon = fraction_above_horizon(area_light(light), x, n)};
+          .above_horizon = fraction_above_horizon(area, x, n)};
 }
 
 }  // namespace

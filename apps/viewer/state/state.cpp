@@ -7,17 +7,12 @@
 
 namespace penumbra::viewer {
 
-void State::set_light(const DiskLight& disk) {
-  LightShape& shape = lights[selected].shape;
-  if (std::holds_alternative<DiskLight>(shape)) {
-    shape = disk;
-    return;
-  }
-  auto& rectangle = std::get<RectangleLight>(shape);
-  const double before = disk_around(rectangle).radius;
-  if (disk.radius > 0.0 && disk.radius != before) rectangle.half_extents *= disk.radius / before;
-  rectangle.center = disk.center;
-  rectangle.normal = disk.normal;
+void State::set_shape(const LightShape& shape) {
+  Light& light = lights[selected];
+  const auto *before = std::get_if<DistantLight>(&light.shape), *after = std::get_if<DistantLight>(&shape);
+  if (before && after && before->angle_degrees != after->angle_degrees)
+    light.radiance *= irradiance_per_radiance(*before) / irradiance_per_radiance(*after);
+  light.shape = shape;
 }
 
 Scene current_scene(const State& state) {
@@ -34,6 +29,8 @@ State opened(const std::filesystem::path& path, LoadedScene& loaded, const State
   state.selected = 0;
   state.camera = loaded.scene.camera;
   state.model = std::make_shared<const Scene>(std::move(loaded.scene));
+  state.casters = state.model->caster_bounds();
+  if (state.casters.empty()) state.casters = state.model->bounds();
   const nlohmann::json document = nlohmann::json::parse(state.model->document);
   const auto settings = document.find("x-viewer");
   if (settings == document.end()) return state;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "apps/viewer/handles/handled_light.h"
 #include "penumbra/render/renderer.h"
 
 namespace penumbra::viewer {
@@ -40,6 +41,7 @@ struct Overlays {
 struct State {
   std::filesystem::path path;          ///< the scene or mesh it was loaded from
   std::shared_ptr<const Scene> model;  ///< as loaded; never null once something is open
+  Bounds casters;                      ///< of the model: of what casts, or of everything where nothing does
   std::vector<Light> lights;           ///< as they are now
   std::size_t selected = 0;            ///< the one whose handles, probe and overlays are shown
   Camera camera;
@@ -54,10 +56,13 @@ struct State {
   int revision = 0;  ///< grows whenever a method or a setting changes
 
   bool two_sided() const { return arrangement != Arrangement::kSingle; }
-  /// The selected light as a disk: itself, or the one around a rectangle.
-  DiskLight light() const { return disk_around(lights[selected].shape); }
-  /// Moves, tilts and resizes the selected light as this disk says; a rectangle keeps its proportions.
-  void set_light(const DiskLight& disk);
+  /// Of the selected light.
+  const LightShape& shape() const { return lights[selected].shape; }
+  /// A distant light keeps its irradiance where its angle changes.
+  void set_shape(const LightShape& shape);
+  /// The selected light as its handles have it, and what they make of it.
+  HandledLight handled() const { return viewer::handled(shape(), casters); }
+  void set_handled(const HandledLight& light) { set_shape(changed(shape(), handled(), light)); }
 };
 
 /// The loaded scene with the lights and the camera of the state.

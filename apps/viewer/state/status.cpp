@@ -12,23 +12,31 @@ nlohmann::json to_json(const Vec3& v) {
 
 nlohmann::json handle_places(const State& state) {
   const Projection projection(state.camera, state.left.width, state.left.height);
-  const HandleShape shape = handle_shape(state.light(), projection);
+  const HandleShape shape = handle_shape(state.handled(), projection);
   nlohmann::json places = nlohmann::json::object();
   const auto add = [&](Handle handle, const Vec3& p) {
     if (const auto at = projection.project(p)) places[name_of(handle)] = {at->x, at->y};
   };
-  add(Handle::kAxisX, shape.axis_tips[0]);
-  add(Handle::kAxisY, shape.axis_tips[1]);
-  add(Handle::kAxisZ, shape.axis_tips[2]);
+  for (std::size_t k = 0; k < shape.axis_tips.size(); ++k) add(kAxisHandles[k], shape.axis_tips[k]);
   add(Handle::kCenter, shape.center);
   add(Handle::kRim, shape.rim_knob);
   add(Handle::kNormal, shape.normal_tip);
   return places;
 }
 
+nlohmann::json light_report(const State& state) {
+  const DiskLight disk = state.handled().disk;
+  nlohmann::json json = {
+      {"center", to_json(disk.center)}, {"normal", to_json(disk.normal)}, {"radius", disk.radius}};
+  if (const auto* distant = std::get_if<DistantLight>(&state.shape())) {
+    json["direction"] = to_json(distant->direction);
+    json["angle_degrees"] = distant->angle_degrees;
+  }
+  return json;
+}
+
 nlohmann::json report(const StatusInput& input) {
   const State& state = input.state;
-  const DiskLight light = state.light();
   nlohmann::json json = {
       {"settled", input.settled},
       {"holding", input.holding},
@@ -43,8 +51,7 @@ nlohmann::json report(const StatusInput& input) {
       {"cut_axis", static_cast<int>(state.overlays.cut_axis)},
       {"minimised", input.minimised},
       {"picture", {state.left.width, state.left.height}},
-      {"light",
-       {{"center", to_json(light.center)}, {"normal", to_json(light.normal)}, {"radius", light.radius}}},
+      {"light", light_report(state)},
       {"lights", state.lights.size()},
       {"selected", state.selected},
       {"camera", {{"eye", to_json(state.camera.eye)}, {"target", to_json(state.camera.target)}}},

@@ -35,15 +35,16 @@ std::string export_volumes(const std::filesystem::path& folder, const State& sta
   return "saved " + (folder / (stem + "-{sheets,penumbra,umbra}.ply")).string();
 }
 
-DiskLight light_on_path(const State& state, double t) {
-  const DiskLight from = disk_around(state.model->lights[state.selected].shape), to = state.light();
-  if (t >= 1.0) return to;
-  DiskLight light = from;
-  light.center = (1.0 - t) * from.center + t * to.center;
-  light.radius = std::lerp(from.radius, to.radius, t);
+HandledLight light_on_path(const State& state, double t) {
+  const HandledLight start = handled(state.model->lights[state.selected].shape, state.casters);
+  HandledLight light = state.handled();
+  if (t >= 1.0) return light;
+  const DiskLight &from = start.disk, to = light.disk;
+  light.disk.center = (1.0 - t) * from.center + t * to.center;
+  light.disk.radius = std::lerp(from.radius, to.radius, t);
   const Vec3 normal = (1.0 - t) * detail::unit(from.normal) + t * detail::unit(to.normal);
-  if (detail::largest_component(normal) > 1e-6)
-    light.normal = normal;  // opposite ends: the start's, until the end
+  // Opposite ends: the start's, until the end.
+  light.disk.normal = detail::largest_component(normal) > 1e-6 ? normal : from.normal;
   return light;
 }
 
@@ -51,7 +52,7 @@ std::string export_sequence(const std::filesystem::path& folder, const State& st
   Renderer renderer(current_scene(state));
   for (int i = 0; i < kPictures; ++i) {
     State moved = state;
-    moved.set_light(light_on_path(state, static_cast<double>(i) / (kPictures - 1)));
+    moved.set_handled(light_on_path(state, static_cast<double>(i) / (kPictures - 1)));
     renderer.set_light(state.selected, moved.lights[state.selected]);
     char end[32];
     std::snprintf(end, sizeof end, "-path-%03d.png", i + 1);

@@ -14,8 +14,8 @@ namespace penumbra::viewer {
 /// Returns what was written in one line. Throws SystemError.
 std::string export_volumes(const std::filesystem::path& folder, const State& state);
 
-/// The light on its way from that of the file to that of now: `t` in [0, 1].
-DiskLight light_on_path(const State& state, double t);
+/// The light's disk on its way from that of the file to that of now: `t` in [0, 1].
+HandledLight light_on_path(const State& state, double t);
 
 /// 24 pictures of the left method along the light's path: FOLDER/STEM-path-001.png and on, full quality.
 /// Throws SystemError and what rendering throws.

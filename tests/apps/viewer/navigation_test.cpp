@@ -48,8 +48,8 @@ TEST(LightHandles, EachHandleIsFoundWhereItIsSeenAndMovesOnlyItsOwn) {
     const PicturePoint at = *projection.project(place);
     EXPECT_EQ(pick(shape, projection, at), handle) << name_of(handle);
     const HandleDrag drag(handle, light, projection, at);
-    EXPECT_NEAR(glm::length(drag.moved_to(projection, at).center - light.center), 0.0, 1e-9);
-    const DiskLight moved = drag.moved_to(projection, {at.x + 13, at.y + 7});
+    EXPECT_NEAR(glm::length(drag.moved_to(projection, at).disk.center - light.center), 0.0, 1e-9);
+    const DiskLight moved = drag.moved_to(projection, {at.x + 13, at.y + 7}).disk;
     EXPECT_EQ(moved.radius != light.radius, handle == Handle::kRim) << name_of(handle);
     EXPECT_EQ(moved.normal != light.normal, handle == Handle::kNormal) << name_of(handle);
     EXPECT_EQ(moved.center == light.center, handle == Handle::kRim || handle == Handle::kNormal)

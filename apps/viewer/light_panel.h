@@ -1,0 +1,12 @@
+// The panel's part about lights: which one is edited, and its numbers.
+#pragma once
+
+#include "apps/viewer/state/state.h"
+#include "apps/viewer/widgets.h"
+
+namespace penumbra::viewer {
+
+/// Draws it and changes the state's lights as its widgets are used.
+void light_section(State& state, Places& places);
+
+}  // namespace penumbra::viewer
