@@ -61,14 +61,14 @@ std::vector<Boundary> find_boundaries(const BoundarySource& source, std::span<co
   stage("reach", [&](const DBufferCaster& c, Boundary& b) {
     const auto probes =
         count_facet_probes(footprints_of(c, source.view, b), b.supports, b.outline->gaps, source.receivers);
-    find_facet_reach(*c.mesh, source.light, b.supports, probes, source.rays, b.reach);
+    find_facet_reach(*c.mesh, b.supports, probes, {source.light, source.view.space, source.rays}, b.reach);
   });
   stage("corners", [&](const DBufferCaster& c, Boundary& b) {
     std::vector<char> is_grazed(b.reach.facets.size());
-    for (std::size_t i = 0; i < is_grazed.size(); ++i) is_grazed[i] = b.reach.facets[i] > 0.0f;
+    for (std::size_t i = 0; i < is_grazed.size(); ++i) is_grazed[i] = !is_hidden(b.reach.facets[i]);
     link_support_facets(*c.mesh, c.rings, source.light, is_grazed, b.supports);
     const auto probes = count_cone_probes(footprints_of(c, source.view, b), b.supports, source.receivers);
-    find_cone_reach(*c.mesh, source.light, b.supports, probes, source.rays, b.reach);
+    find_cone_reach(*c.mesh, b.supports, probes, {source.light, source.view.space, source.rays}, b.reach);
   });
   return boundaries;
 }

@@ -18,10 +18,10 @@
 #include "penumbra/mesh/stage_clock.h"
 #include "penumbra/render/support/counts.h"
 #include "penumbra/volumes/supports.h"
-#include "render/d_buffer/casters.h"
 #include "render/d_buffer/entries/facet_reach.h"
 #include "render/d_buffer/entries/geometry.h"
-#include "render/d_buffer/view.h"
+#include "render/d_buffer/view/casters.h"
+#include "render/d_buffer/view/view.h"
 #include "render/rays/ray_scene.h"
 
 namespace penumbra::detail {

@@ -4,20 +4,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/d_buffer/casters.h"
 #include "render/d_buffer/entries/receiver_grid.h"
-#include "render/d_buffer/view.h"
+#include "render/d_buffer/view/casters.h"
 
 namespace penumbra::detail {
 
-/// Whether the light's center sees only faces of the caster that are turned to it: the caster is closed, and
-/// the light's plane does not cut it open. Cost O(1).
-bool shows_only_fronts(const CasterRange& caster, const DBufferView& view);
-
 /// The triangles that may lie before a receiver that does not see the light's center; only these are read. Of
 /// a caster that shows only fronts those that face the center. Out: indices as in `casters`, three a
-/// triangle. Casters that cannot occlude are left out. Cost O(points + triangles), on all cores.
-std::vector<std::uint32_t> triangles_before_hidden(const CasterTriangles& casters, const DBufferView& view,
+/// triangle. `points`: as from drawn_points. Casters that cannot occlude are left out. Cost O(triangles), on all cores.
+std::vector<std::uint32_t> triangles_before_hidden(const CasterTriangles& casters,
+                                                   const std::vector<glm::vec4>& points,
                                                    const ReceiverGrid& receivers);
 
 }  // namespace penumbra::detail

@@ -96,11 +96,6 @@ PENUMBRA_INLINE float horizon_chord(const ReceiverLanes& from, std::size_t k, co
   return seen.behind ? -1.0f : height >= reach ? 1.0f : inside;
 }
 
-PENUMBRA_VECTOR_CLONES
-void horizon_chords(const ReceiverLanes& from, const LocalDisk& disk, float* delta) {
-  for (std::size_t k = 0; k < kLanes; ++k) delta[k] = horizon_chord(from, k, disk);
-}
-
 /// What lies beyond a chord.
 float open_fraction(float delta) {
   return delta >= 1.0f ? 1.0f : delta > -1.0f ? static_cast<float>(half_plane_area(delta)) : 0.0f;
@@ -137,21 +132,6 @@ CenterRays::CenterRays(const Receivers& surface, const RayScene& rays)
 
 detail::ReceiverLanes CenterRays::lanes(std::size_t first) const {
   return {&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
-}
-
-void CenterRays::above_horizon(const DiskLight& light, std::vector<float>& out) const {
-  out.assign(pixels_, 1.0f);
-  const LocalDisk disk = local_disk(light, rays_.frame());
-  const auto look = [&](const tbb::blocked_range<std::size_t>& packets) {
-    float delta[kLanes];
-    for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
-      const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
-      horizon_chords(lanes(first), disk, delta);
-      for (std::size_t k = 0; k < count; ++k) out[pixel_[first + k]] = open_fraction(delta[k]);
-    }
-  };
-  rays_.arena().execute(
-      [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, x_.size() / kLanes, 256), look); });
 }
 
 void CenterRays::center_seen(const DiskLight& light, std::vector<float>& out) const {

@@ -33,9 +33,6 @@ class CenterRays {
   /// Heidrich 2001). Where one edge crosses the disk, the root mean square error over all chords is .037 for
   /// one pattern (at most .14) and .007 for the mean of nine. Cost: sixteen rays a pixel, on all cores.
   std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
-  /// Writes one number per pixel to `out`: the disk's area fraction above the point's horizon, 0 behind the
-  /// light, 1 where nothing is seen. Cost O(pixels), on all cores.
-  void above_horizon(const DiskLight& light, std::vector<float>& out) const;
 
  private:
   detail::ReceiverLanes lanes(std::size_t first) const;

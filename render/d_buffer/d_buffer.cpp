@@ -5,13 +5,14 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/d_buffer/boundaries.h"
-#include "render/d_buffer/casters.h"
 #include "render/d_buffer/d_buffer_method.h"
 #include "render/d_buffer/fill_passes.h"
 #include "render/d_buffer/pictures.h"
-#include "render/d_buffer/view.h"
+#include "render/d_buffer/view/casters.h"
+#include "render/d_buffer/view/view.h"
 #include "render/d_buffer/visibility_pass.h"
 #include "render/gl/state_scope.h"
+#include "render/receivers/occluding_casters.h"
 #include "render/support/background.h"
 
 namespace penumbra {
@@ -45,13 +46,13 @@ struct DBuffer::Impl {
   std::vector<TexturePicture> textures() const;
 
   void find_casters_that_cannot_occlude(const DiskLight& light);
+  detail::LightSpace light_space(const CircularLight& light) const;
   void prepare_layers(const detail::DBufferView& view, const DBufferOptions& options);
 
   gl::Context& context;
   const gl::Functions& gl;
   const Scene& scene;
   const RayScene& rays;
-  detail::CasterFrame frame_of_casters;
   std::vector<detail::DBufferCaster> casters;
   detail::Outlines outlines;
 
@@ -66,37 +67,36 @@ DBuffer::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& 
       gl(context_.functions()),
       scene(scene_),
       rays(rays_),
-      frame_of_casters(detail::caster_frame(scene_, rays_.frame().scale)),
-      casters(detail::find_casters(scene_, frame_of_casters)),
+      casters(detail::find_casters(scene_)),
       passes(gl),
       shading(gl),
       framebuffer(gl, gl::Object::Kind::kFramebuffer) {
-  passes.upload_casters(detail::caster_triangles(scene, frame_of_casters));
+  passes.upload_casters(detail::caster_triangles(scene));
   gl::require_no_error(gl, "uploading casters");
 }
 
 void DBuffer::Impl::set_surface(const Receivers& surface) {
-  std::vector<glm::vec4> positions = detail::receiver_positions(scene, frame_of_casters, surface);
-  std::vector<Vec3> present;
-  for (const glm::vec4& p : positions)
-    if (p.w != 0.0f) present.emplace_back(p);
-  const detail::ReceiverCloud receivers(std::move(present));
-  for (detail::DBufferCaster& caster : casters) caster.planes.set_receivers(receivers);
-  shading.set_surface(surface, std::move(positions), rays);
+  shading.set_surface(surface, detail::first_faces(scene), rays);
   gl::require_no_error(gl, "uploading the surface buffer");
 }
 
-/// Rounding puts receivers on a floor to either side of it, by less than rays start above it; half of that is
-/// allowed.
 void DBuffer::Impl::find_casters_that_cannot_occlude(const DiskLight& light) {
-  std::vector<bool> flags;
-  for (detail::DBufferCaster& caster : casters) {
-    const bool cannot_occlude = caster.planes.cannot_occlude(light, 0.5 * kRayOffset);
-    if (cannot_occlude != caster.cannot_occlude) outlines.forget();
-    caster.cannot_occlude = cannot_occlude;
-    flags.push_back(cannot_occlude);
+  const std::vector<char> flags =
+      detail::find_casters_that_cannot_occlude(scene, light, rays.frame(), shading.surface());
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    const bool cannot_occlude = flags[casters[i].object] != 0;
+    if (cannot_occlude != casters[i].cannot_occlude) outlines.forget();
+    casters[i].cannot_occlude = cannot_occlude;
+    passes.casters().ranges[i].cannot_occlude = cannot_occlude;
   }
-  passes.set_casters_that_cannot_occlude(flags);
+}
+
+/// About where most receivers are. Where the light's plane runs through them, the origin is moved in front of it by a
+/// part of how far they spread, which sets no limit to what is seen.
+detail::LightSpace DBuffer::Impl::light_space(const CircularLight& light) const {
+  const detail::ReceiverMiddle& receivers = shading.middle();
+  const double least = receivers.reach > 0.0 ? 0x1p-6 * receivers.reach : 1.0;
+  return {light, receivers.middle, least};
 }
 
 /// Textures, and the state that drawing into them needs.
@@ -120,10 +120,16 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
                                    const Progress& progress) {
   DBufferFrame frame;
   StageClock clock;
+  const Receivers surface = shading.surface();
   if (options.center == CenterTest::kRay) shading.trace_center(light);
   clock.finish("center");
   find_casters_that_cannot_occlude(light);
-  const detail::DBufferView view = detail::choose_view(scene, casters, frame_of_casters, light, options.size);
+  const detail::LightSpace space = light_space(light);
+  const detail::ReceiversInLight placed(surface, space);
+  const detail::CastersInLight seen = detail::casters_in_light(passes.casters(), space);
+  const detail::DBufferView view = detail::choose_view(space, passes.casters(), seen, placed, options.size);
+  shading.place_receivers(placed, view);
+  passes.upload_points(detail::drawn_points(seen, view.space));
   const detail::ReceiverGrid receivers =
       reads_are_known(view, options) ? shading.receiver_grid(view, options.size) : detail::ReceiverGrid();
   clock.finish("receivers");

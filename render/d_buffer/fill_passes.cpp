@@ -1,6 +1,7 @@
 #include "render/d_buffer/fill_passes.h"
 
 #include <cstddef>
+#include <glm/mat4x4.hpp>
 
 namespace penumbra::detail {
 namespace {
@@ -13,6 +14,22 @@ void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std:
           GLenum usage) {
   gl.BindBuffer(kind, buffer);
   gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
+}
+
+/// (u, v, h, 1) · weight → clip coordinates. The depth, depth_scale · h · weight / forward, is linear on planes;
+/// reversed and float, it keeps its digits where receivers are.
+glm::dmat4 clip_matrix(const Target& target, double depth_scale) {
+  const auto& [left, right, bottom, top] = target.window;
+  glm::dmat4 out(0.0);
+  for (const int k : {0, 1, 2}) {
+    const int column = k < 2 ? k : 3;  // the target's axes are of u, v and the weight
+    const double forward = target.axes[k][2];
+    out[column][0] = (2.0 * target.axes[k][0] - (left + right) * forward) / (right - left);
+    out[column][1] = (2.0 * target.axes[k][1] - (bottom + top) * forward) / (top - bottom);
+    out[column][3] = forward;
+  }
+  out[2][2] = depth_scale;
+  return out;
 }
 
 /// Whether penumbra entries are kept only in front of the first surface. That need not be tested for the
@@ -41,10 +58,15 @@ FillPasses::FillPasses(const gl::Functions& gl)
 void FillPasses::upload_casters(CasterTriangles casters) {
   casters_ = std::move(casters);
   gl_.BindVertexArray(caster_array_);
-  fill(gl_, GL_ARRAY_BUFFER, caster_points_, casters_.points, GL_STATIC_DRAW);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, caster_points_);
   fill(gl_, GL_ELEMENT_ARRAY_BUFFER, caster_indices_, casters_.indices, GL_STATIC_DRAW);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+  gl_.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(glm::vec4), nullptr);
   gl_.EnableVertexAttribArray(0);
+}
+
+void FillPasses::upload_points(std::vector<glm::vec4> points) {
+  points_ = std::move(points);
+  fill(gl_, GL_ARRAY_BUFFER, caster_points_, points_, GL_STREAM_DRAW);
 }
 
 void FillPasses::upload_entries(const EntryGeometry& geometry) {
@@ -57,17 +79,9 @@ void FillPasses::upload_entries(const EntryGeometry& geometry) {
   umbra_count_ = geometry.umbra.size();
 }
 
-void FillPasses::set_casters_that_cannot_occlude(const std::vector<bool>& flags) {
-  for (std::size_t i = 0; i < flags.size(); ++i) casters_.ranges[i].cannot_occlude = flags[i];
-}
-
-void FillPasses::set_target(const gl::Program& program, const Target& target) const {
-  const glm::mat3 axes(target.axes);
-  float window[4];
-  for (std::size_t k = 0; k < 4; ++k) window[k] = static_cast<float>(target.window[k]);
-  gl_.UniformMatrix3fv(program.uniform("target_axes"), 1, GL_FALSE, &axes[0][0]);
-  gl_.Uniform4fv(program.uniform("target_window"), 1, window);
-  gl_.Uniform1f(program.uniform("near_depth"), static_cast<float>(kNearDepth));
+void FillPasses::set_target(const gl::Program& program, const Target& target, const DBufferView& view) const {
+  const glm::mat4 to_clip(clip_matrix(target, view.depth_scale));
+  gl_.UniformMatrix4fv(program.uniform("to_clip"), 1, GL_FALSE, &to_clip[0][0]);
 }
 
 void FillPasses::attach(const Layer& layer, int index) const {
@@ -84,11 +98,11 @@ void FillPasses::bind(int unit, GLenum kind, GLuint texture) const {
 
 /// Every caster that can occlude; only faces towards the light's center, where a caster shows no others.
 void FillPasses::draw_casters(const Target& target, const DBufferView& view) {
-  set_target(occluder_program_, target);
+  set_target(occluder_program_, target, view);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, caster_indices_);
   for (const CasterRange& caster : casters_.ranges) {
     if (caster.cannot_occlude) continue;
-    if (shows_only_fronts(caster, view)) gl_.Enable(GL_CULL_FACE);
+    if (caster.shows_only_fronts) gl_.Enable(GL_CULL_FACE);
     gl_.Uniform1ui(occluder_program_.uniform("first_face"), caster.first_face);
     const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(caster.first_index) *
                                                       sizeof(std::uint32_t));
@@ -100,8 +114,8 @@ void FillPasses::draw_casters(const Target& target, const DBufferView& view) {
 /// Only triangles that a receiver will read.
 void FillPasses::draw_read_casters(const Target& target, const DBufferView& view,
                                    const ReceiverGrid& receivers) {
-  set_target(occluder_program_, target);
-  const std::vector<std::uint32_t> read = triangles_before_hidden(casters_, view, receivers);
+  set_target(occluder_program_, target, view);
+  const std::vector<std::uint32_t> read = triangles_before_hidden(casters_, points_, receivers);
   fill(gl_, GL_ELEMENT_ARRAY_BUFFER, read_indices_, read, GL_STREAM_DRAW);
   gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(read.size()), GL_UNSIGNED_INT, nullptr);
 }
@@ -110,8 +124,7 @@ void FillPasses::draw_read_casters(const Target& target, const DBufferView& view
 void FillPasses::draw_occluders(const DBufferView& view, const ReceiverGrid& receivers,
                                 const DBufferLayers& layers, const DBufferOptions& options) {
   occluder_program_.use();
-  gl_.UniformMatrix3fv(occluder_program_.uniform("light_axes"), 1, GL_FALSE, &view.axes[0][0]);
-  gl_.Uniform3f(occluder_program_.uniform("light_offset"), view.offset.x, view.offset.y, view.offset.z);
+  gl_.Uniform1f(occluder_program_.uniform("near_weight"), static_cast<float>(LightSpace::kNearWeight));
   gl_.BindVertexArray(caster_array_);
   gl_.Enable(GL_CLIP_DISTANCE0);
   gl_.CullFace(GL_FRONT);  // targets look along right × up, which turns windings over
@@ -141,24 +154,24 @@ void FillPasses::draw_entries(const DBufferView& view, const DBufferLayers& laye
                               const DBufferOptions& options) {
   gl_.BindVertexArray(entry_array_);
   const Entries penumbra{penumbra_vertices_, penumbra_count_}, umbra{umbra_vertices_, umbra_count_};
-  draw_kind(view.targets, layers, EntryKind::kPenumbra, penumbra,
+  draw_kind(view, layers, EntryKind::kPenumbra, penumbra,
             needs_first_surface(options) ? Against::kBeforeFirst : Against::kNothing, options);
-  draw_kind(view.targets, layers, EntryKind::kAbove, umbra, Against::kBeforeLast, options);
-  draw_kind(view.targets, layers, EntryKind::kBelow, umbra, Against::kBehindLast, options);
+  draw_kind(view, layers, EntryKind::kAbove, umbra, Against::kBeforeLast, options);
+  draw_kind(view, layers, EntryKind::kBelow, umbra, Against::kBehindLast, options);
 }
 
-void FillPasses::draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
+void FillPasses::draw_kind(const DBufferView& view, const DBufferLayers& layers, EntryKind kind,
                            const Entries& entries, Against against, const DBufferOptions& options) {
   constexpr auto kStride = sizeof(EntryVertex);
   gl_.BindBuffer(GL_ARRAY_BUFFER, entries.vertices);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, kStride, nullptr);
+  gl_.VertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, kStride, nullptr);
   gl_.VertexAttribIPointer(1, 1, GL_UNSIGNED_INT, kStride,
                            reinterpret_cast<const void*>(offsetof(EntryVertex, facet)));
   gl_.VertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, kStride,
-                          reinterpret_cast<const void*>(offsetof(EntryVertex, edge_weight)));
+                          reinterpret_cast<const void*>(offsetof(EntryVertex, edge_height)));
   for (GLuint attribute : {0u, 1u, 2u}) gl_.EnableVertexAttribArray(attribute);
-  draw_layer(targets, layers, kind, false, entries, against, options);
-  if (layers.entries > 1) draw_layer(targets, layers, kind, true, entries, against, options);
+  draw_layer(view, layers, kind, false, entries, against, options);
+  if (layers.entries > 1) draw_layer(view, layers, kind, true, entries, against, options);
 }
 
 const gl::Program& FillPasses::entry_program(int surface, bool peel) {
@@ -185,9 +198,8 @@ void FillPasses::bind_filter(const gl::Program& program, const Layers& surface, 
 }
 
 /// The nearest (or furthest) entries of one kind, or the nearest that come after those.
-void FillPasses::draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
-                            bool second, const Entries& entries, Against against,
-                            const DBufferOptions& options) {
+void FillPasses::draw_layer(const DBufferView& view, const DBufferLayers& layers, EntryKind kind, bool second,
+                            const Entries& entries, Against against, const DBufferOptions& options) {
   const Layer& into = second ? layers.second_entries : layers.first_entries;
   const bool furthest = options.conflict == Conflict::kFurthest;
   const Layers& surface = against == Against::kBeforeFirst ? layers.occluder.depth : layers.last;
@@ -197,7 +209,7 @@ void FillPasses::draw_layer(const std::vector<Target>& targets, const DBufferLay
   const int compared = against == Against::kBehindLast ? 2 : in_front && !starts_with_surface ? 1 : 0;
   const gl::Program& program = entry_program(compared, second);
   program.use();
-  gl_.Uniform1i(program.uniform("store_edge_weight"), options.contents == DBufferContents::kDistances);
+  gl_.Uniform1i(program.uniform("store_edge_height"), options.contents == DBufferContents::kDistances);
   bind_filter(program, surface, layers.first_entries);
   if (starts_with_surface)
     gl_.CopyImageSubData(surface.texture, GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, into.depth.texture,
@@ -205,14 +217,14 @@ void FillPasses::draw_layer(const std::vector<Target>& targets, const DBufferLay
                          layers.count);
   gl_.DepthFunc(furthest ? GL_LESS : GL_GREATER);
   const float start = furthest ? 1.0f : 0.0f;
-  for (int i = 0; i < static_cast<int>(targets.size()); ++i) {
+  for (int i = 0; i < static_cast<int>(view.targets.size()); ++i) {
     const int layer = layers.layer_of(kind, i);
     attach(into, layer);
     gl_.ClearBufferuiv(GL_COLOR, 0, kNoId);
     if (!starts_with_surface) gl_.ClearBufferfv(GL_DEPTH, 0, &start);
     gl_.Uniform1i(program.uniform("target"), i);
     gl_.Uniform1i(program.uniform("layer"), layer);
-    set_target(program, targets[static_cast<std::size_t>(i)]);
+    set_target(program, view.targets[static_cast<std::size_t>(i)], view);
     gl_.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(entries.count));
   }
   gl_.DepthFunc(GL_GREATER);

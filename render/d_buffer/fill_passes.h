@@ -15,7 +15,7 @@
 #include "render/d_buffer/d_buffer.h"
 #include "render/d_buffer/entries/geometry.h"
 #include "render/d_buffer/layers.h"
-#include "render/d_buffer/view.h"
+#include "render/d_buffer/view/view.h"
 
 namespace penumbra::detail {
 
@@ -24,8 +24,10 @@ class FillPasses {
   explicit FillPasses(const gl::Functions& gl);
   /// Once.
   void upload_casters(CasterTriangles casters);
-  /// One flag a caster; true: it is not drawn.
-  void set_casters_that_cannot_occlude(const std::vector<bool>& flags);
+  /// What changes from frame to frame: which casters cannot occlude, which show only fronts.
+  CasterTriangles& casters() { return casters_; }
+  /// Every frame, before draw_occluders: as from drawn_points.
+  void upload_points(std::vector<glm::vec4> points);
   void upload_entries(const EntryGeometry& geometry);
   /// Fills the first and the last surface of `layers`. The first is drawn only for options that read it; of
   /// the last only what `receivers` read. The framebuffer that is bound is used.
@@ -45,13 +47,13 @@ class FillPasses {
   };
   void draw_casters(const Target& target, const DBufferView& view);
   void draw_read_casters(const Target& target, const DBufferView& view, const ReceiverGrid& receivers);
-  void draw_kind(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
-                 const Entries& entries, Against against, const DBufferOptions& options);
-  void draw_layer(const std::vector<Target>& targets, const DBufferLayers& layers, EntryKind kind,
-                  bool second, const Entries& entries, Against against, const DBufferOptions& options);
+  void draw_kind(const DBufferView& view, const DBufferLayers& layers, EntryKind kind, const Entries& entries,
+                 Against against, const DBufferOptions& options);
+  void draw_layer(const DBufferView& view, const DBufferLayers& layers, EntryKind kind, bool second,
+                  const Entries& entries, Against against, const DBufferOptions& options);
   const gl::Program& entry_program(int surface, bool peel);
   void bind_filter(const gl::Program& program, const Layers& surface, const Layer& first) const;
-  void set_target(const gl::Program& program, const Target& target) const;
+  void set_target(const gl::Program& program, const Target& target, const DBufferView& view) const;
   void attach(const Layer& layer, int index) const;
   void bind(int unit, GLenum kind, GLuint texture) const;
 
@@ -62,6 +64,7 @@ class FillPasses {
   gl::Object caster_points_, caster_indices_, read_indices_, caster_array_, penumbra_vertices_,
       umbra_vertices_, entry_array_, record_buffer_, record_texture_;
   CasterTriangles casters_;
+  std::vector<glm::vec4> points_;
   std::size_t penumbra_count_ = 0, umbra_count_ = 0;
 };
 

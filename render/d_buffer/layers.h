@@ -1,7 +1,7 @@
 // The textures of a D-buffer: what every texel of every target keeps.
 //
-// "Umbra and penumbra volumes" (2004), section 3.1, with an edge in place of distances. Depths are near /
-// distance along the target's axis, which is linear on planes: 0 is infinitely far away, 1 is nearest.
+// "Umbra and penumbra volumes" (2004), section 3.1, with an edge in place of distances. Depths are heights towards the
+// light, in units that depend on the target (DBufferView::depth_scale): 0 is lowest, greater is nearer to the light.
 #pragma once
 
 #include "render/gl/program.h"
@@ -21,7 +21,7 @@ struct Layers {
 };
 
 /// A number and a depth a texel. The number is 1 + that of a face or of a facet (0: none), or, of entries
-/// with DBufferContents::kDistances, the bits of the 1/z of the edge.
+/// with DBufferContents::kDistances, the bits of the height of the edge.
 struct Layer {
   Layer(const gl::Functions& gl, int size, int count)
       : id(gl, GL_R32UI, size, count), depth(gl, GL_DEPTH_COMPONENT32F, size, count) {}

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 
 #include "render/support/vector_clones.h"
 
@@ -19,12 +18,12 @@ namespace {
 
 /// Least cosine between the normals of two pixels that count as one surface. Smaller: samples spread over
 /// creases.
-constexpr float kSameSurfaceCosine = 0.9f;
+constexpr double kSameSurfaceCosine = 0.9;
 /// The same where samples are averaged. Smaller: the shadow on a curved surface is blurred
 /// (Resampler.NoiseOfSamplesIsAveragedOnFlatGroundOnly).
-constexpr float kFlatCosine = 0.998f;
+constexpr double kFlatCosine = 0.998;
 /// Greatest height above the neighbor's plane over the distance of two pixels that count as one surface.
-constexpr float kSameSurfaceSlope = 0.5f;
+constexpr double kSameSurfaceSlope = 0.5;
 /// A difference of so many times the noise of the samples is no longer noise. Smaller: noise replaces entries
 /// that are right (Resampler.AProbePixelThatErrsByItsNoiseChangesNothing).
 constexpr float kNoiseExplains = 2.0f;
@@ -54,18 +53,19 @@ bool any_apart(const float* a, const float* b, std::uint32_t count) {
 
 template <class F>
 void for_neighbors(const ImageSurface& image, std::uint32_t i, const F& visit) {
-  const auto width = static_cast<std::uint32_t>(image.width);
+  const auto width = static_cast<std::uint32_t>(image.receivers.width);
   const std::uint32_t x = i % width;
   if (x > 0) visit(i - 1);
   if (x + 1 < width) visit(i + 1);
   if (i >= width) visit(i - width);
-  if (i + width < image.positions.size()) visit(i + width);
+  if (i + width < image.receivers.size()) visit(i + width);
 }
 
-bool is_one_surface(const ImageSurface& image, std::uint32_t i, std::uint32_t j, float least_cosine) {
-  if (image.positions[i].w == 0.0f || image.positions[j].w == 0.0f) return false;
-  const glm::vec3 n(image.normals[i]), way(image.positions[j] - image.positions[i]);
-  return glm::dot(n, glm::vec3(image.normals[j])) > least_cosine &&
+bool is_one_surface(const ImageSurface& image, std::uint32_t i, std::uint32_t j, double least_cosine) {
+  const Receivers& of = image.receivers;
+  if (!of.is_present(i) || !of.is_present(j)) return false;
+  const Vec3 &n = of.normals[i], way = of.points[j] - of.points[i];
+  return glm::dot(n, of.normals[j]) > least_cosine &&
          std::abs(glm::dot(n, way)) <= kSameSurfaceSlope * glm::length(way);
 }
 
@@ -80,11 +80,11 @@ float share_of(float open, float visibility) {
 
 /// The next one on the line from i through j; j at the image's border.
 std::uint32_t beyond(const ImageSurface& image, std::uint32_t i, std::uint32_t j) {
-  const auto width = static_cast<std::uint32_t>(image.width);
+  const auto width = static_cast<std::uint32_t>(image.receivers.width);
   const std::uint32_t next = 2 * j - i;  // wraps to a great number above the first row
   const std::uint32_t column = j % width;
   const bool sideways = j / width == i / width;
-  return next >= image.positions.size() || (sideways && (column == 0 || column + 1 == width)) ? j : next;
+  return next >= image.receivers.size() || (sideways && (column == 0 || column + 1 == width)) ? j : next;
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ void Resampler::begin() {
 std::vector<std::uint32_t> Resampler::find_first(std::span<const std::uint32_t> always,
                                                  std::span<const std::uint32_t> suspects) {
   tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
-  tbb::parallel_for(tbb::blocked_range<int>(0, image_.height, 16), [&](const auto& rows) {
+  tbb::parallel_for(tbb::blocked_range<int>(0, image_.receivers.height, 16), [&](const auto& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) find_in_row(y, parts.local());
   });
   std::vector<std::uint32_t> out(always.begin(), always.end());
@@ -125,21 +125,22 @@ std::vector<std::uint32_t> Resampler::find_first(std::span<const std::uint32_t> 
 
 std::vector<std::uint32_t> Resampler::probe_pixels() const {
   std::vector<std::uint32_t> out;
-  for (int y = kProbesInShadow / 2; y < image_.height; y += kProbesInShadow)
-    for (int x = kProbesInShadow / 2; x < image_.width; x += kProbesInShadow) {
-      const auto i = static_cast<std::uint32_t>(y * image_.width + x);
+  const Receivers& of = image_.receivers;
+  for (int y = kProbesInShadow / 2; y < of.height; y += kProbesInShadow)
+    for (int x = kProbesInShadow / 2; x < of.width; x += kProbesInShadow) {
+      const auto i = static_cast<std::uint32_t>(y * of.width + x);
       const bool wanted = visibility_[i] < image_.open[i] ||
                           (x % kProbesInLight < kProbesInShadow && y % kProbesInLight < kProbesInShadow);
-      if (wanted && image_.positions[i].w != 0.0f && image_.open[i] > 0.0f) out.push_back(i);
+      if (wanted && of.is_present(i) && image_.open[i] > 0.0f) out.push_back(i);
     }
   return out;
 }
 
 void Resampler::find_in_row(int y, std::vector<std::uint32_t>& out) const {
-  const auto width = static_cast<std::uint32_t>(image_.width);
+  const auto width = static_cast<std::uint32_t>(image_.receivers.width);
   const std::uint32_t begin = static_cast<std::uint32_t>(y) * width;
   find_between(begin, width - 1, 1, out);
-  if (y + 1 < image_.height) find_between(begin, width, width, out);
+  if (y + 1 < image_.receivers.height) find_between(begin, width, width, out);
 }
 
 void Resampler::find_between(std::uint32_t begin, std::uint32_t count, std::uint32_t apart,
@@ -187,7 +188,7 @@ std::vector<std::uint32_t> Resampler::take(std::span<const std::uint32_t> pixels
 }
 
 Resampler::Mean Resampler::mean_sample(std::uint32_t i) const {
-  const auto width = static_cast<std::uint32_t>(image_.width);
+  const auto width = static_cast<std::uint32_t>(image_.receivers.width);
   if (i < width || i + width >= sample_.size() || i % width == 0 || i % width == width - 1)
     return {sample_[i], by_entries(i), 1};
   float seen = sample_[i], open = image_.open[i], said = by_entries(i);
@@ -228,13 +229,13 @@ void Resampler::settle() {
 }
 
 std::vector<std::uint32_t> isolated_pixels(const ImageSurface& image) {
-  std::vector<char> is_isolated(image.positions.size());
+  std::vector<char> is_isolated(image.receivers.size());
   tbb::parallel_for(std::size_t{0}, is_isolated.size(), [&](std::size_t pixel) {
     const auto i = static_cast<std::uint32_t>(pixel);
     int together = 0;
     for_neighbors(image, i,
                   [&](std::uint32_t j) { together += is_one_surface(image, i, j, kSameSurfaceCosine); });
-    is_isolated[pixel] = image.positions[pixel].w != 0.0f && together < 2;
+    is_isolated[pixel] = image.receivers.is_present(pixel) && together < 2;
   });
   std::vector<std::uint32_t> out;
   for (std::uint32_t i = 0; i < is_isolated.size(); ++i)

@@ -20,18 +20,17 @@
 
 #include <cstdint>
 #include <functional>
-#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
+#include "penumbra/render/receivers/receivers.h"
+
 namespace penumbra::detail {
 
-/// The surface points of an image, row by row.
+/// The surface points of an image.
 struct ImageSurface {
-  int width = 0, height = 0;
-  /// Positions in any frame, unit normals in one of the same orientation. The fourth number of a position is
-  /// 0 where nothing is seen.
-  std::span<const glm::vec4> positions, normals;
+  /// Pixels, with normals.
+  Receivers receivers;
   /// The disk's fraction above the horizon. Visibilities are compared as parts of it: it jumps where normals
   /// do, which is no contradiction.
   std::span<const float> open;

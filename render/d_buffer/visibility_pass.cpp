@@ -3,6 +3,10 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <cmath>
+
+#include "render/light/disk_area.h"
+
 namespace penumbra::detail {
 namespace {
 
@@ -80,51 +84,79 @@ VisibilityPass::VisibilityPass(const gl::Functions& gl)
 
 VisibilityPass::~VisibilityPass() = default;
 
-void VisibilityPass::set_surface(const Receivers& surface, std::vector<glm::vec4> positions,
+void VisibilityPass::set_surface(const Receivers& surface, std::vector<std::uint32_t> first_face,
                                  const RayScene& rays) {
   width_ = surface.width;
   height_ = surface.height;
-  positions_ = std::move(positions);
-  normals_.assign(surface.size(), glm::vec4(0.0f));
-  for (std::size_t i = 0; i < surface.size(); ++i)
-    if (surface.is_present(i)) normals_[i] = glm::vec4(glm::vec3(surface.normals[i]), 0.0f);
-  const auto upload = [&](const std::vector<glm::vec4>& texels) {
-    auto texture = image_texture(gl_, GL_RGBA32F, width_, height_);
-    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_FLOAT, texels.data());
-    return texture;
-  };
-  surface_position_ = upload(positions_);
-  surface_normal_ = upload(normals_);
+  points_.assign(surface.points.begin(), surface.points.end());
+  normals_.assign(surface.normals.begin(), surface.normals.end());
+  objects_.assign(surface.objects.begin(), surface.objects.end());
+  faces_.assign(surface.faces.begin(), surface.faces.end());
+  first_face_ = std::move(first_face);
+  middle_ = receiver_middle(surface);
+  surface_position_ = image_texture(gl_, GL_RGBA32F, width_, height_);
+  surface_plane_ = image_texture(gl_, GL_RGBA32F, width_, height_);
   visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
   center_seen_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
-  isolated_ = isolated_pixels({width_, height_, positions_, normals_, {}});
+  isolated_ = isolated_pixels({this->surface(), {}});
   seen_.clear();
+}
+
+Receivers VisibilityPass::surface() const {
+  return {.points = points_,
+          .normals = normals_,
+          .objects = objects_,
+          .faces = faces_,
+          .width = width_,
+          .height = height_};
+}
+
+template <class T>
+void VisibilityPass::upload(const gl::Object& texture, GLenum format, const std::vector<T>& texels) const {
+  gl_.BindTexture(GL_TEXTURE_2D, texture);
+  gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, format, GL_FLOAT, texels.data());
 }
 
 void VisibilityPass::trace_center(const DiskLight& light) {
   center_rays_->center_seen(light, seen_);
-  const auto upload = [&](const Object& texture, const std::vector<float>& texels) {
-    gl_.BindTexture(GL_TEXTURE_2D, texture);
-    gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RED, GL_FLOAT, texels.data());
-  };
-  upload(*center_seen_, seen_);
-  center_rays_->above_horizon(light, open_);
-  without_entries_.resize(seen_.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen_.size(), 8192), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i)
-      without_entries_[i] = seen_[i] < 1.0f ? 0.0f : open_[i];
-  });
-  upload(*visibility_texture_, without_entries_);
+  upload(*center_seen_, GL_RED, seen_);
 }
 
-ImageReceivers VisibilityPass::receivers(const DBufferView& view) const {
-  return {width_, height_, positions_, view.axes, view.offset};
+void VisibilityPass::place_receivers(const ReceiversInLight& receivers, const DBufferView& view) {
+  texels_ = receivers.texels(view.space, first_face_);
+  upload(*surface_position_, GL_RGBA, texels_.positions);
+  upload(*surface_plane_, GL_RGBA, texels_.planes);
+  if (seen_.empty()) return;
+  find_open();
+  upload(*visibility_texture_, GL_RED, without_entries_);
+}
+
+/// δ of a horizon is c / |(a, b)| of its plane.
+void VisibilityPass::find_open() {
+  open_.resize(seen_.size());
+  without_entries_.resize(seen_.size());
+  const auto open_at = [&](std::size_t i) {
+    const float face = texels_.positions[i].w;
+    if (!(face > 0.0f)) return face < 0.0f ? 0.0f : 1.0f;
+    const glm::dvec4 plane(texels_.planes[i]);
+    return static_cast<float>(half_plane_area(plane.z / std::hypot(plane.x, plane.y)));
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, seen_.size(), 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      open_[i] = open_at(i);
+      without_entries_[i] = seen_[i] < 1.0f ? 0.0f : open_[i];
+    }
+  });
+}
+
+ImageReceivers VisibilityPass::receivers() const {
+  return {width_, height_, texels_.positions, texels_.planes};
 }
 
 ReceiverGrid VisibilityPass::receiver_grid(const DBufferView& view, int size) const {
-  return {receivers(view), normals_, seen_, view.targets[0], size, view.radius()};
+  return {receivers(), seen_, view.targets[0], size};
 }
 
 VisibilityPass::Programs& VisibilityPass::programs(const DBufferView& view, const DBufferOptions& options) {
@@ -145,7 +177,7 @@ void VisibilityPass::bind_textures(const Program& program, const DBufferLayers& 
   constexpr GLenum kArray = GL_TEXTURE_2D_ARRAY;
   const Binding bindings[] = {
       {"surface_position", GL_TEXTURE_2D, *surface_position_},
-      {"surface_normal", GL_TEXTURE_2D, *surface_normal_},
+      {"surface_plane", GL_TEXTURE_2D, *surface_plane_},
       {"center_seen", GL_TEXTURE_2D, *center_seen_},
       {"occluder_face", kArray, layers.occluder.id.texture},
       {"occluder_depth", kArray, layers.occluder.depth.texture},
@@ -169,10 +201,7 @@ void VisibilityPass::shade_pixels(const Program& program, const DBufferView& vie
                                   const DBufferLayers& layers, GLuint records) const {
   program.use();
   const auto at = [&](const char* name) { return program.uniform(name); };
-  gl_.UniformMatrix3fv(at("light_axes"), 1, GL_FALSE, &view.axes[0][0]);
-  gl_.Uniform3f(at("light_offset"), view.offset.x, view.offset.y, view.offset.z);
-  gl_.Uniform1f(at("radius"), static_cast<float>(view.radius()));
-  gl_.Uniform1f(at("near_depth"), static_cast<float>(kNearDepth));
+  gl_.Uniform1f(at("depth_scale"), static_cast<float>(view.depth_scale));
   std::vector<glm::mat3> axes;
   std::vector<glm::vec4> windows;
   for (const Target& t : view.targets) {
@@ -193,7 +222,7 @@ std::vector<glm::vec2> VisibilityPass::tiles(const DBufferView& view, const Rece
                                              const DBufferOptions& options) const {
   if (!is_known(options, static_cast<int>(view.targets.size())) || grid.is_everywhere()) return whole_image();
   if (view.targets.empty()) return {};
-  return tiles_with_entries(receivers(view), grid, geometry, view.targets[0]);
+  return tiles_with_entries(receivers(), grid, geometry, view.targets[0]);
 }
 
 /// The passes draw them at depth 0.5.
@@ -223,8 +252,7 @@ void VisibilityPass::resample(const DiskLight& light, std::span<const std::uint3
   const auto sample = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
   };
-  resampled_ = resampler_.resample({width_, height_, positions_, normals_, open_}, isolated_, uncertain,
-                                   sample, visibility);
+  resampled_ = resampler_.resample({surface(), open_}, isolated_, uncertain, sample, visibility);
 }
 
 /// Two passes over the image: the first decides most pixels and marks the others by depth for the second.

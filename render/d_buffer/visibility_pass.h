@@ -18,7 +18,8 @@
 #include "render/d_buffer/entries/tiles.h"
 #include "render/d_buffer/layers.h"
 #include "render/d_buffer/resampler.h"
-#include "render/d_buffer/view.h"
+#include "render/d_buffer/view/receivers_in_light.h"
+#include "render/d_buffer/view/view.h"
 
 namespace penumbra::detail {
 
@@ -35,16 +36,20 @@ class VisibilityPass {
  public:
   explicit VisibilityPass(const gl::Functions& gl);
   ~VisibilityPass();
-  /// Uploads the surface points. `positions`: as from receiver_positions (casters.h). `rays` must outlive
-  /// this.
-  void set_surface(const Receivers& surface, std::vector<glm::vec4> positions, const RayScene& rays);
+  /// Copies the surface points. `first_face`: as from first_faces (casters.h). `rays` must outlive this.
+  void set_surface(const Receivers& surface, std::vector<std::uint32_t> first_face, const RayScene& rays);
   bool has_surface() const { return width_ > 0; }
+  /// The copy.
+  Receivers surface() const;
+  const ReceiverMiddle& middle() const { return middle_; }
   int automatic_size() const { return d_buffer_size_for(width_, height_); }
 
-  /// Step 1: which receivers see the light's center, by one ray each. From it and the horizon follows the
-  /// visibility where no entry applies.
+  /// Step 1: which receivers see the light's center, by one ray each.
   void trace_center(const DiskLight& light);
-  /// Step 3: which receivers read what of the only target. Call trace_center before.
+  /// Step 3: receivers as the view's shaders see them, and uploads them. With trace_center before it, finds the visibility
+  /// where no entry applies: by the center and the horizon.
+  void place_receivers(const ReceiversInLight& receivers, const DBufferView& view);
+  /// Step 3: which receivers read what of the only target. Call trace_center and place_receivers before.
   ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
 
   /// The parts of the image that shade has to visit, as from entries/tiles.h: all of it where the visibility
@@ -61,7 +66,10 @@ class VisibilityPass {
 
  private:
   struct Programs;
-  ImageReceivers receivers(const DBufferView& view) const;
+  ImageReceivers receivers() const;
+  void find_open();
+  template <class T>
+  void upload(const gl::Object& texture, GLenum format, const std::vector<T>& texels) const;
   Programs& programs(const DBufferView& view, const DBufferOptions& options);
   void upload_tiles(const std::vector<glm::vec2>& tiles);
   void test_center_by_depth(const Programs& programs, const DBufferView& view, const DBufferLayers& layers,
@@ -75,10 +83,16 @@ class VisibilityPass {
   const gl::Functions& gl_;
   int width_ = 0, height_ = 0;
   std::size_t resampled_ = 0;
-  std::unique_ptr<gl::Object> surface_position_, surface_normal_, center_seen_, visibility_texture_,
+  std::unique_ptr<gl::Object> surface_position_, surface_plane_, center_seen_, visibility_texture_,
       mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
-  std::vector<glm::vec4> positions_, normals_;
+  /// What the caller's arrays held.
+  std::vector<Vec3> points_, normals_;
+  std::vector<std::int32_t> objects_;
+  std::vector<std::uint32_t> faces_, first_face_;
+  ReceiverMiddle middle_;
+  /// Under this frame's light.
+  ReceiverTexels texels_;
   /// Of each pixel: 1 where it sees the light's center, else 0; the disk's fraction above its horizon; V
   /// without entries.
   std::vector<float> seen_, open_, without_entries_;

@@ -19,14 +19,19 @@ namespace {
 constexpr double kClearance = 2.0 * kRayOffset;
 /// A hit nearer than this part of the way to the edge hides the edge. A later one is a face at the edge
 /// itself.
-constexpr float kHidden = 1.0f - 1e-3f;
+constexpr float kBefore = 1.0f - 1e-3f;
 
+constexpr double kEndless = -std::numeric_limits<double>::infinity();
 constexpr float kForever = std::numeric_limits<float>::infinity();
 
 class Prober {
  public:
-  Prober(const DiskLight& light, const RayScene& rays)
-      : rays_(rays), axes_(light_frame(light)), center_(light.center), radius_(light.radius) {}
+  explicit Prober(const ProbeSource& source)
+      : rays_(source.rays),
+        space_(source.space),
+        axes_(light_frame(source.light)),
+        center_(source.light.center),
+        radius_(source.light.radius) {}
 
   /// The way from the rim past a point.
   struct Probe {
@@ -34,13 +39,15 @@ class Prober {
     double angle;  ///< of the contact on the rim
   };
 
-  /// Reach of the ray from the rim past the target.
-  float reach(const Probe& probe, SupportKind kind) const {
+  /// Where the ray from the rim past the target ends.
+  double end(const Probe& probe, SupportKind kind) const {
     const std::optional<Ray> ray = aim(probe, kind);
-    if (!ray) return kForever;
+    if (!ray) return kEndless;
     const std::optional<RayHit> hit = first_hit(rays_, ray->from, ray->way, kForever);
-    if (!hit) return kForever;
-    return hit->distance < kHidden ? 0.0f : hit->distance;
+    if (!hit) return kEndless;
+    if (hit->distance < kBefore) return FacetReach::kHidden;
+    const Vec3 contact = contact_of(probe);
+    return divided(space_.homogeneous(contact + double{hit->distance} * (probe.target - contact))).h;
   }
 
   /// Leaves of an edge that crosses the light's plane its part in front.
@@ -58,8 +65,7 @@ class Prober {
   /// None where the contact lies on the target's own line along the rim.
   std::optional<Ray> aim(const Probe& probe, SupportKind kind) const {
     const RayFrame& frame = rays_.frame();
-    const Vec3 out = axes_.u * std::cos(probe.angle) + axes_.v * std::sin(probe.angle);
-    const Vec3 contact = center_ + radius_ * out;
+    const Vec3 out = outward(probe), contact = contact_of(probe);
     // The plane that touches the rim at the contact and passes the target; its normal points away from the
     // disk.
     Vec3 beyond = glm::cross(glm::cross(axes_.w, out), probe.target - contact);
@@ -73,51 +79,57 @@ class Prober {
     return Ray{glm::vec3(from), glm::vec3(way)};
   }
 
+  Vec3 outward(const Probe& probe) const {
+    return axes_.u * std::cos(probe.angle) + axes_.v * std::sin(probe.angle);
+  }
+  Vec3 contact_of(const Probe& probe) const { return center_ + radius_ * outward(probe); }
+
   const RayScene& rays_;
+  const LightSpace& space_;
   const LightFrame axes_;
   const Vec3 center_;
   const double radius_;
 };
 
-/// Over up to three places along an edge or round a sector, 0 to 1; infinity is not surpassed.
-template <class Reach>
-float farthest(int count, const Reach& reach_at) {
+/// Over up to three places along an edge or round a sector, 0 to 1.
+template <class End>
+double lowest(int count, const End& end_at) {
   constexpr double kPlaces[] = {0.5, 0.1, 0.9};
-  float most = 0.0f;
+  double low = FacetReach::kHidden;
   for (int i = 0; i < count; ++i)
-    if (std::isfinite(most)) most = std::max(most, reach_at(kPlaces[i]));
-  return most;
+    if (low != kEndless) low = std::min(low, end_at(kPlaces[i]));
+  return low;
 }
 
 }  // namespace
 
-void find_facet_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
-                      std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
-  const Prober prober(light, rays);
-  out.facets.assign(supports.facets.size(), 0.0f);
+void find_facet_reach(const TriangleMesh& mesh, const Supports& supports,
+                      std::span<const std::uint8_t> probes, const ProbeSource& source, FacetReach& out) {
+  const Prober prober(source);
+  out.facets.assign(supports.facets.size(), FacetReach::kHidden);
   const auto probe = [&](std::size_t i) {
     const SupportFacet& f = supports.facets[i];
     const Edge& e = mesh.edges()[index(f.edge)];
     Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
     prober.cut_to_front(a, b);
-    out.facets[i] = farthest(probes[i], [&](double t) {
-      return prober.reach({a + t * (b - a), f.rim_angle}, f.kind);
+    out.facets[i] = lowest(probes[i], [&](double t) {
+      return prober.end({a + t * (b - a), f.rim_angle}, f.kind);
     });
   };
-  rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
+  source.rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
 }
 
-void find_cone_reach(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
-                     std::span<const std::uint8_t> probes, const RayScene& rays, FacetReach& out) {
-  const Prober prober(light, rays);
-  out.cones.assign(supports.cones.size(), 0.0f);
+void find_cone_reach(const TriangleMesh& mesh, const Supports& supports, std::span<const std::uint8_t> probes,
+                     const ProbeSource& source, FacetReach& out) {
+  const Prober prober(source);
+  out.cones.assign(supports.cones.size(), FacetReach::kHidden);
   const auto probe = [&](std::size_t i) {
     const ConeSector& c = supports.cones[i];
-    out.cones[i] = farthest(probes[i], [&](double t) {
-      return prober.reach({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
+    out.cones[i] = lowest(probes[i], [&](double t) {
+      return prober.end({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
     });
   };
-  rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });
+  source.rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });
 }
 
 }  // namespace penumbra::detail

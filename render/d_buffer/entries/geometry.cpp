@@ -7,10 +7,14 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <tuple>
 
 namespace penumbra::detail {
 namespace {
+
+/// Stands for "as far as the lowest receiver".
+constexpr double kEverywhere = -std::numeric_limits<double>::infinity();
 
 /// Part of one caster's boundary. Several may run at once, each into its own geometry.
 class Appender {
@@ -22,62 +26,68 @@ class Appender {
   void add_facets(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       add_record(from_.supports.facets[i]);
-      if (from_.reach.facets[i] > 0.0f) add_facet(static_cast<std::uint32_t>(i));
+      if (!is_hidden(from_.reach.facets[i])) add_facet(static_cast<std::uint32_t>(i));
     }
   }
   void add_cones(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (from_.reach.cones[i] > 0.0f && from_.supports.cones[i].from_facet != kNoFacet)
+      if (!is_hidden(from_.reach.cones[i]) && from_.supports.cones[i].from_facet != kNoFacet)
         add_cone(from_.supports.cones[i], from_.reach.cones[i]);
   }
   void add_gaps(std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (from_.reach.facets[from_.gaps[i].facet] > 0.0f) add_gap(from_.gaps[i]);
+      if (!is_hidden(from_.reach.facets[from_.gaps[i].facet])) add_gap(from_.gaps[i]);
   }
 
  private:
   void add_record(const SupportFacet& f) {
     const EntryFootprints& shape = from_.footprints;
     const auto& facets = from_.supports.facets;
-    const auto point = [&](VertexId v, std::uint32_t facet) {
-      const std::uint32_t link = facet == kNoFacet ? 0 : first_ + facet + 1;
-      return glm::vec4(glm::vec3(shape.in_light_frame(v)), static_cast<float>(link));
-    };
     const VertexId a = shape.begin_of(f), b = shape.end_of(f);
-    out_.records.push_back(
-        point(f.previous != kNoFacet ? shape.begin_of(facets[f.previous]) : a, f.previous));
-    out_.records.push_back(point(a, kNoFacet));
-    out_.records.push_back(point(b, kNoFacet));
-    out_.records.push_back(point(f.next != kNoFacet ? shape.end_of(facets[f.next]) : b, f.next));
+    const auto edge = shape.segment(a, b);
+    if (!edge) return out_.records.insert(out_.records.end(), 4, glm::vec4(0.0f)), void();
+    const auto point = [](const Uvh& p, std::uint32_t link) {
+      return glm::vec4(glm::vec2(p.uv), static_cast<float>(p.h), static_cast<float>(link));
+    };
+    // The neighbor's far end, where it goes on from this edge's own end.
+    const auto beyond = [&](bool has_end, const Uvh& end, VertexId at, std::uint32_t facet, bool back) {
+      if (!has_end || facet == kNoFacet) return point(end, 0);
+      const auto next = shape.segment(at, back ? shape.begin_of(facets[facet]) : shape.end_of(facets[facet]));
+      return next && next->has_from ? point(next->to, first_ + facet + 1) : point(end, 0);
+    };
+    out_.records.push_back(beyond(edge->has_from, edge->from, a, f.previous, true));
+    out_.records.push_back(point(edge->from, 0));
+    out_.records.push_back(point(edge->to, 0));
+    out_.records.push_back(beyond(edge->has_to, edge->to, b, f.next, false));
   }
 
-  /// Least 1/z that entries of this kind and bounds are read at; none where all of it is behind.
-  std::optional<double> least_weight(SupportKind kind, const UvBounds& bounds, double nearest) const {
-    const double least = from_.receivers.least_weight(kind, bounds);
-    return least < nearest ? std::optional(least) : std::nullopt;
+  /// Least h that entries of this kind and bounds are read at; none where all of it is higher than `highest`.
+  std::optional<double> least_height(SupportKind kind, const UvBounds& bounds, double highest) const {
+    const double least = from_.receivers.least_height(kind, bounds);
+    return least < highest ? std::optional(least) : std::nullopt;
   }
 
   void add_facet(std::uint32_t i) {
     const SupportKind kind = from_.supports.facets[i].kind;
-    const float reach = from_.reach.facets[i];
-    auto f = from_.footprints.facet(i, reach, 0.0);
+    const double end = from_.reach.facets[i];
+    auto f = from_.footprints.facet(i, end, kEverywhere);
     for (int pass = 0; pass < 2; ++pass) {  // once cut short, fewer receivers are in its bounds
       if (!f) return;
-      const auto least = least_weight(kind, uv_bounds_of(f->corners), std::max(f->from_weight, f->to_weight));
+      const auto least = least_height(kind, uv_bounds_of(f->corners), std::max(f->from_height, f->to_height));
       if (!least) return;
-      if (pass == 0) f = from_.footprints.facet(i, reach, *least);
+      if (pass == 0) f = from_.footprints.facet(i, end, *least);
     }
     for (std::size_t k : {0, 1, 2, 0, 2, 3})
-      push(triangles_of(kind), f->corners[k], first_ + i, k == 0 || k == 3 ? f->from_weight : f->to_weight);
+      push(triangles_of(kind), f->corners[k], first_ + i, k == 0 || k == 3 ? f->from_height : f->to_height);
   }
 
   /// The sector of the cone, as a fan circumscribed to it.
-  void add_cone(const ConeSector& sector, float reach) {
-    const auto whole = from_.footprints.cone(sector, reach, 0.0);
+  void add_cone(const ConeSector& sector, double end) {
+    const auto whole = from_.footprints.cone(sector, end, kEverywhere);
     if (!whole) return;
-    const auto least = least_weight(sector.kind, uv_bounds_of(*whole), whole->apex.w);
+    const auto least = least_height(sector.kind, uv_bounds_of(*whole), whole->apex.h);
     if (!least) return;
-    const EntryFootprints::Cone cone = *from_.footprints.cone(sector, reach, *least);
+    const EntryFootprints::Cone cone = *from_.footprints.cone(sector, end, *least);
     const double angle = sector.to_angle - sector.from_angle;
     // A chord of half angle h, pushed out to touch the circle, overshoots by 1/cos h - 1: half a texel is
     // allowed.
@@ -85,25 +95,25 @@ class Appender {
     const double half = std::acos(1.0 / (1.0 + allowed));
     const int segments = std::max(1, static_cast<int>(std::ceil(angle / (2.0 * half))));
     const double step = angle / segments;
-    const double far_w = std::max(0.0, cone.apex.w - cone.radius / from_.footprints.disk_radius());
+    const double far_h = cone.apex.h - cone.radius;
     const auto at = [&](double at_angle, double stretch) {
-      return Uvw{cone.apex.uv - cone.radius * stretch * glm::dvec2(std::cos(at_angle), std::sin(at_angle)),
-                 far_w};
+      return Uvh{cone.apex.uv - cone.radius * stretch * glm::dvec2(std::cos(at_angle), std::sin(at_angle)),
+                 far_h};
     };
     const double stretch = 1.0 / std::cos(std::min(0.5 * step, 1.0));
     if (segments == 1 && from_.supports.facets[sector.from_facet].next == sector.to_facet) {
       // Either facet knows of the other: no need to tell their halves apart.
-      for (const Uvw& corner : {cone.apex, at(sector.from_angle, stretch), at(sector.to_angle, stretch)})
-        push(triangles_of(sector.kind), corner, first_ + sector.from_facet, cone.apex.w);
+      for (const Uvh& corner : {cone.apex, at(sector.from_angle, stretch), at(sector.to_angle, stretch)})
+        push(triangles_of(sector.kind), corner, first_ + sector.from_facet, cone.apex.h);
       return;
     }
-    Uvw last = at(sector.from_angle, 1.0);
+    Uvh last = at(sector.from_angle, 1.0);
     for (int k = 0; k <= segments; ++k) {
-      const Uvw next =
+      const Uvh next =
           k < segments ? at(sector.from_angle + (k + 0.5) * step, stretch) : at(sector.to_angle, 1.0);
       const std::uint32_t facet = 2 * k < segments ? sector.from_facet : sector.to_facet;
-      for (const Uvw& corner : {cone.apex, last, next})
-        push(triangles_of(sector.kind), corner, first_ + facet, cone.apex.w);
+      for (const Uvh& corner : {cone.apex, last, next})
+        push(triangles_of(sector.kind), corner, first_ + facet, cone.apex.h);
       last = next;
     }
   }
@@ -111,19 +121,20 @@ class Appender {
   void add_gap(const GapFace& gap) {
     const auto corners = from_.footprints.gap(gap);
     if (!corners) return;
-    const double nearest = std::max({(*corners)[0].w, (*corners)[1].w, (*corners)[2].w});
-    if (!least_weight(SupportKind::kUmbra, uv_bounds_of(*corners), nearest)) return;
-    for (const Uvw& c : *corners) push(out_.umbra, c, first_ + gap.facet, c.w);
+    const double highest = std::max({(*corners)[0].h, (*corners)[1].h, (*corners)[2].h});
+    if (!least_height(SupportKind::kUmbra, uv_bounds_of(*corners), highest)) return;
+    for (const Uvh& c : *corners) push(out_.umbra, c, first_ + gap.facet, c.h);
   }
 
   std::vector<EntryVertex>& triangles_of(SupportKind kind) {
     return kind == SupportKind::kPenumbra ? out_.penumbra : out_.umbra;
   }
 
-  static void push(std::vector<EntryVertex>& triangles, const Uvw& p, std::uint32_t facet,
-                   double edge_weight) {
-    triangles.push_back({static_cast<float>(p.uv.x), static_cast<float>(p.uv.y), static_cast<float>(p.w),
-                         facet, static_cast<float>(edge_weight)});
+  static void push(std::vector<EntryVertex>& triangles, const Uvh& p, std::uint32_t facet,
+                   double edge_height) {
+    const double most = std::max({1.0, std::abs(p.uv.x), std::abs(p.uv.y), std::abs(p.h)});
+    triangles.push_back(
+        {glm::vec4(glm::dvec4(p.uv, p.h, 1.0) / most), facet, static_cast<float>(edge_height)});
   }
 
   const EntrySource& from_;
@@ -134,9 +145,14 @@ class Appender {
 using EntryTriangle = std::array<EntryVertex, 3>;
 
 bool comes_before(const EntryTriangle& one, const EntryTriangle& two) {
-  const auto nearest = [](const EntryTriangle& t) { return std::max({t[0].w, t[1].w, t[2].w}); };
-  const auto numbers = [](const EntryVertex& v) { return std::tie(v.u, v.v, v.w, v.edge_weight); };
-  if (nearest(one) != nearest(two)) return nearest(one) > nearest(two);
+  const auto height = [](const EntryVertex& v) { return v.place.z / v.place.w; };
+  const auto highest = [&](const EntryTriangle& t) {
+    return std::max({height(t[0]), height(t[1]), height(t[2])});
+  };
+  const auto numbers = [](const EntryVertex& v) {
+    return std::tie(v.place.x, v.place.y, v.place.z, v.place.w, v.edge_height);
+  };
+  if (highest(one) != highest(two)) return highest(one) > highest(two);
   for (std::size_t k = 0; k < 3; ++k)
     if (numbers(one[k]) != numbers(two[k])) return numbers(one[k]) < numbers(two[k]);
   return false;

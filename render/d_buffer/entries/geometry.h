@@ -2,7 +2,7 @@
 // shader.
 //
 // In: footprints, reach, who will read the D-buffer. Out: EntryGeometry. In the coordinates of
-// entry_footprint.h everything is flat, so depth is linear on the screen. The 2004 paper (section 3.2)
+// light_space.h everything is flat, so depth is linear on the screen. The 2004 paper (section 3.2)
 // interpolates distances, which are not, and accepts the error. Gap faces are the paper's silhouette faces
 // (section 3.3).
 #pragma once
@@ -18,19 +18,21 @@
 namespace penumbra::detail {
 
 struct EntryVertex {
-  float u, v, w;
+  /// (u, v, h, 1) · a positive number, so that no number is greater than 1: a corner may be very far away.
+  glm::vec4 place;
   /// Number of its facet: the record is EntryGeometry::records[4 · facet] and the three after it.
   std::uint32_t facet;
-  /// 1/z of the edge's point from which this line of the boundary starts.
-  float edge_weight;
+  /// h of the edge's point from which this line of the boundary starts.
+  float edge_height;
 };
 
 struct EntryGeometry {
   /// Triangles, three vertices each.
   std::vector<EntryVertex> penumbra, umbra;
-  /// Four points a facet in the light's frame: the begin of the previous edge, the edge's ends a and b, the
-  /// end of the next edge. Directed so that the lit side is positive (SupportFacet::flipped). The fourth
-  /// number of the first point is 1 + the previous facet, of the last 1 + the next; 0: none.
+  /// Four points (u, v, h) a facet: the begin of the previous edge, the edge's ends a and b, the end of the next
+  /// edge, as far as they are kept (EntryFootprints::segment). Directed so that the lit side is positive
+  /// (SupportFacet::flipped). The fourth number of the first point is 1 + the previous facet, of the last 1 + the
+  /// next; 0: none.
   std::vector<glm::vec4> records;
 };
 

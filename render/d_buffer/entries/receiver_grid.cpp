@@ -23,25 +23,23 @@ std::size_t place(SupportKind kind) {
 
 }  // namespace
 
-ReceiverGrid::ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals,
-                           std::span<const float> seen, const Target& target, int size, double radius)
+ReceiverGrid::ReceiverGrid(const ImageReceivers& image, std::span<const float> seen, const Target& target,
+                           int size)
     : reads_(image.positions.size()), low_(target.window[0], target.window[2]) {
   const glm::dvec2 extent = glm::dvec2(target.window[1], target.window[3]) - low_;
   cells_per_unit_ = static_cast<double>(kCells) / extent;
   texel_ = static_cast<double>(kCells) / size;
-  // An entry may lie this much behind its receiver: what two texels are worth on a slope of 1/radius.
-  const auto slack = static_cast<float>(2.0 * std::max(extent.x, extent.y) / size / radius);
+  // An entry may lie this much behind its receiver: what two texels are worth on a slope of 1.
+  const auto slack = static_cast<float>(2.0 * std::max(extent.x, extent.y) / size);
   const glm::vec2 origin(low_), scale(cells_per_unit_);
   const auto add = [&](std::size_t i, Kinds& cells) {
-    if (image.positions[i].w == 0.0f) return;
-    const glm::vec3 p = image.axes * glm::vec3(image.positions[i]) + image.offset;
-    if (!(p.z > 0.0f)) return;
-    const glm::vec2 uv = glm::vec2(p) / p.z, cell = (uv - origin) * scale;
+    if (!(image.positions[i].w > 0.0f)) return;
+    const glm::vec2 uv(image.positions[i]), cell = (uv - origin) * scale;
     // Receivers that rounding puts just outside belong to the border's cells.
     if (!(cell.x > -1.0f && cell.y > -1.0f && cell.x < kCells + 1.0f && cell.y < kCells + 1.0f)) return;
     const auto x = static_cast<std::size_t>(std::clamp(cell.x, 0.0f, kCells - 1.0f));
     const auto y = static_cast<std::size_t>(std::clamp(cell.y, 0.0f, kCells - 1.0f));
-    const float weight = 1.0f / p.z - slack * (1.0f + glm::dot(uv, uv));
+    const float height = image.positions[i].z - slack * (1.0f + glm::dot(uv, uv));
     Reads& read = reads_[i];
     read.column = static_cast<std::uint8_t>(x), read.row = static_cast<std::uint8_t>(y);
     const auto put = [&](SupportKind kind, float value) {
@@ -49,11 +47,11 @@ ReceiverGrid::ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec
       float& least = cells[place(kind)][y * kCells + x];
       least = std::min(least, value);
     };
-    if (seen[i] < 0.5f) return put(SupportKind::kUmbra, weight);
-    if (glm::dot(image.axes * glm::vec3(normals[i]), p) < 0.0f) return put(SupportKind::kPenumbra, weight);
+    if (seen[i] < 0.5f) return put(SupportKind::kUmbra, height);
+    if (image.planes[i].z > 0.0f) return put(SupportKind::kPenumbra, height);
     // Below whose horizon the center lies: any penumbra entry, near or far, decides which kind it reads.
     put(SupportKind::kPenumbra, -kNobody);
-    put(SupportKind::kUmbra, weight);
+    put(SupportKind::kUmbra, height);
   };
   const std::vector<float> nobody(kCells * kCells, kNobody);
   tbb::enumerable_thread_specific<Kinds> parts(Kinds{nobody, nobody});
@@ -85,7 +83,7 @@ void ReceiverGrid::build_levels(Kinds finest) {
   }
 }
 
-double ReceiverGrid::least_weight(SupportKind kind, const UvBounds& bounds) const {
+double ReceiverGrid::least_height(SupportKind kind, const UvBounds& bounds) const {
   if (is_everywhere()) return -kNone;
   const auto cell_of = [](double cell) { return static_cast<int>(std::clamp(cell, 0.0, kCells - 1.0)); };
   const glm::dvec2 from = (bounds.low - low_) * cells_per_unit_ - texel_;

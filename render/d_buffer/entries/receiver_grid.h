@@ -1,7 +1,7 @@
 // D-buffer step 3: which parts of the D-buffer the image's receivers will read. Nothing is drawn for the
 // others.
 //
-// In: receivers, and which of them see the light's center. Out: for any rectangle of (x/z, y/z) the 1/z down
+// In: receivers, and which of them see the light's center. Out: for any rectangle of (u, v) the height h down
 // to which entries are read there. A texel is read only by receivers on its line of sight. Those that see the
 // light's center read penumbra entries, the others umbra entries. An entry counts only for receivers behind
 // it. So a boundary changes no pixel if its bounds hold no such receiver, and need not go on behind the
@@ -10,34 +10,20 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "penumbra/volumes/supports.h"
-#include "render/d_buffer/entries/targets.h"
+#include "render/d_buffer/view/targets.h"
 
 namespace penumbra::detail {
 
-/// The image's receivers, positions in the caster frame (the fourth number is 0 where nothing is seen); axes
-/// · p + offset is in the light's frame.
+/// The image's receivers in light space: ReceiverTexels (render/d_buffer/view/receivers_in_light.h).
 struct ImageReceivers {
   int width, height;
-  std::span<const glm::vec4> positions;
-  glm::mat3 axes;
-  glm::vec3 offset;
-};
-
-/// A rectangle in (x/z, y/z).
-struct UvBounds {
-  glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-  void add(const glm::dvec2& uv) {
-    low = glm::min(low, uv);
-    high = glm::max(high, uv);
-  }
+  std::span<const glm::vec4> positions, planes;
 };
 
 class ReceiverGrid {
@@ -58,21 +44,19 @@ class ReceiverGrid {
 
   /// Receivers everywhere, as far away as can be: every entry may be read.
   ReceiverGrid() = default;
-  /// The receivers of an image in the only target. `seen`: as from CenterRays::center_seen; `normals`: in
-  /// world axes; `size`: texels a side of the target; `radius`: of the disk, in the light's frame. Cost
-  /// O(pixels), on all cores.
-  ReceiverGrid(const ImageReceivers& image, std::span<const glm::vec4> normals, std::span<const float> seen,
-               const Target& target, int size, double radius);
+  /// The receivers of an image in the only target. `seen`: as from CenterRays::center_seen; `size`: texels a side of
+  /// the target. Cost O(pixels), on all cores.
+  ReceiverGrid(const ImageReceivers& image, std::span<const float> seen, const Target& target, int size);
 
   bool is_everywhere() const { return levels_.empty(); }
-  /// A lower bound of 1/z of the receivers within `bounds` that read entries of this kind: what has no
-  /// greater 1/z is not read there. kNone where there is no such receiver. Cost O(1).
-  double least_weight(SupportKind kind, const UvBounds& bounds) const;
+  /// A lower bound of h of the receivers within `bounds` that read entries of this kind: what is not higher is not
+  /// read there. kNone where there is no such receiver. Cost O(1).
+  double least_height(SupportKind kind, const UvBounds& bounds) const;
   /// One a pixel; none for receivers everywhere.
   std::span<const Reads> reads() const { return reads_; }
 
  private:
-  /// Least 1/z by cell, of penumbra and umbra entries that are read.
+  /// Least h by cell, of penumbra and umbra entries that are read.
   using Kinds = std::array<std::vector<float>, 2>;
   void build_levels(Kinds finest);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace penumbra::detail {
 namespace {
@@ -43,10 +44,11 @@ class Occupancy {
 
   /// A cell more on every side, for rounding.
   void mark(const EntryVertex* corners, Cells& cells) const {
-    glm::vec2 low(1e30f), high(-1e30f);
+    glm::vec2 low(std::numeric_limits<float>::infinity()), high(-low);
     for (int k = 0; k < 3; ++k) {
-      low = glm::min(low, glm::vec2(corners[k].u, corners[k].v));
-      high = glm::max(high, glm::vec2(corners[k].u, corners[k].v));
+      const glm::vec2 uv = glm::vec2(corners[k].place) / corners[k].place.w;
+      low = glm::min(low, uv);
+      high = glm::max(high, uv);
     }
     const auto cell = [](float value) {
       return static_cast<int>(std::clamp(value, -2.0f, static_cast<float>(kCells + 1)));

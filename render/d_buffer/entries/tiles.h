@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/d_buffer/entries/geometry.h"
-#include "render/d_buffer/entries/targets.h"
+#include "render/d_buffer/view/targets.h"
 
 namespace penumbra::detail {
 

@@ -7,12 +7,15 @@
 
 float cross2(vec2 p, vec2 q) { return p.x * q.y - p.y * q.x; }
 
-// Where the line from x through v meets the light's plane, in radii. From w, which lies on that line's disk, v is
-// reached without leaving what is nearer to the light than x.
+// Where v is seen from x, on the disk. A v that is not clearly higher than x gives way to a point on the way from w to
+// v which is: it is seen far outside of the disk, in the same direction.
 vec2 on_disk(vec3 v, vec3 w, vec3 x) {
-  float most = 0.999 * x.z;
-  if (v.z > most) v = w.z < most ? mix(w, v, (most - w.z) / (v.z - w.z)) : w;
-  return (v.xy * x.z - x.xy * v.z) / ((x.z - v.z) * radius);
+  v -= x;
+  w -= x;
+  float least = max(0.001 * (abs(v.x) + abs(v.y)), 1e-9 * w.z);
+  if (v.z < least)
+    v = w.z > least ? vec3(mix(w.xy, v.xy, (w.z - least) / (w.z - v.z)), least) : w.z > v.z ? w : v;
+  return v.xy / v.z;
 }
 
 // From a point in the unit circle along d to the circle.
@@ -76,7 +79,7 @@ Walk walk_past(uint facet, uint other, int side, vec2 p, vec2 way, vec3 a, vec3 
   if (far.w > 0.5 && dot(pb, pb) >= 1.0 && meets_disk(pb, on_disk(far.xyz, b, x))) {
     // The lines of both edges meet outside of the disk: it is cut into three.
     bool on = side == 3;
-    Chord next = chord_of_plane(on ? edge_plane(x, b, far.xyz) : edge_plane(x, far.xyz, b), x, radius);
+    Chord next = chord_of_plane(on ? edge_plane(x, b, far.xyz) : edge_plane(x, far.xyz, b));
     bool convex = dot(on ? edge_plane(x, a, b) : edge_plane(x, b, a), far.xyz - x) < 0.0;
     float cap = half_plane_area(convex ? next.delta : -next.delta);
     w.next = uint(far.w - 0.5);

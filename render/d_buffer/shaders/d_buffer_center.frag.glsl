@@ -10,7 +10,7 @@ void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
   Texel t = texel_of(r.x);
   uint face = texelFetch(occluder_face, t.at, 0).r;
-  bool other = t.at.z >= 0 && dot(r.n, r.x) < 0.0 && face != kEmpty && face != r.face;
-  float weight = weight_of(texelFetch(occluder_depth, t.at, 0).r, t);
-  seen = other && is_above(weight, r, t) ? 0.0 : 1.0;
+  bool other = t.at.z >= 0 && r.n.z > 0.0 && face != kEmpty && face != r.face;
+  float height = height_of(texelFetch(occluder_depth, t.at, 0).r, t);
+  seen = other && !r.behind && is_above(height, r, t) ? 0.0 : 1.0;
 }

@@ -1,15 +1,15 @@
 #version 450 core
 // D-buffer step 6: what a texel keeps of an entry. That is 1 + its facet or, for the 2004 paper's own contents, the
-// bits of the 1/z of its edge; the depth test keeps its depth.
+// bits of the height of its edge; the depth test keeps its depth.
 //
 // Defined from outside (fill_passes.cpp):
 //   SURFACE  0: every entry is kept; 1: those in front of the surface; 2: those behind it
 //   PEEL     1: only entries after the one that is kept already, for a second one a texel
 
-uniform bool store_edge_weight;
+uniform bool store_edge_height;
 
 flat in uint entry_facet;
-in float entry_edge_weight;
+in float entry_edge_height;
 layout(location = 0) out uint entry;
 
 #if SURFACE != 0
@@ -51,5 +51,5 @@ bool comes_after_first() { return true; }
 
 void main() {
   if (!stands_surface() || !comes_after_first()) discard;
-  entry = store_edge_weight ? floatBitsToUint(entry_edge_weight) : entry_facet + 1u;
+  entry = store_edge_height ? floatBitsToUint(entry_edge_height) : entry_facet + 1u;
 }

@@ -15,13 +15,13 @@ layout(location = 0) out float visibility;
 void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
   Texel t = texel_of(r.x);
-  bool sees_some = dot(r.n, r.x) < radius * length(r.n.xy);  // of the disk above the horizon
-  bool open_to_entries = r.face != 0u && r.x.z > 0.0 && sees_some && t.at.z >= 0;
+  bool sees_some = r.n.z > -length(r.n.xy);  // of the disk above the horizon
+  bool open_to_entries = r.face != 0u && !r.behind && sees_some && t.at.z >= 0;
   bool applies = open_to_entries && texelFetch(first_entry, layer_of(kind_of_entries(r, t), t), 0).r != kEmpty;
 #if !KNOWN
-  visibility = r.face == 0u ? 1.0 : r.x.z <= 0.0 || (open_to_entries && r.hidden)
+  visibility = r.face == 0u ? 1.0 : r.behind || (open_to_entries && r.hidden)
                    ? 0.0
-                   : half_plane_area(chord_of_plane(r.n, r.x, radius).delta);
+                   : half_plane_area(chord_of_plane(r.n).delta);
 #endif
   gl_FragDepth = applies ? 1.0 : 0.0;
 }

@@ -32,19 +32,19 @@ Chord opposite(Chord c) { return Chord(-c.normal, -c.delta); }
 float agreeing(float delta, bool hidden) { return hidden ? min(delta, 0.0) : max(delta, 0.0); }
 
 struct Entry {
-  uint content;  // 1 + facet, or the bits of the edge's 1/z; kEmpty: none
-  float weight;  // 1/z of the boundary
+  uint content;  // 1 + facet, or the bits of the edge's height; kEmpty: none
+  float height;  // of the boundary
   bool umbra;
 };
 
 Entry first_of(int kind, Texel t) {
   ivec3 at = layer_of(kind, t);
-  return Entry(texelFetch(first_entry, at, 0).r, weight_of(texelFetch(first_depth, at, 0).r, t), kind != kPenumbra);
+  return Entry(texelFetch(first_entry, at, 0).r, height_of(texelFetch(first_depth, at, 0).r, t), kind != kPenumbra);
 }
 
 Entry second_of(int kind, Texel t) {
   ivec3 at = layer_of(kind, t);
-  return Entry(texelFetch(second_entry, at, 0).r, weight_of(texelFetch(second_depth, at, 0).r, t), kind != kPenumbra);
+  return Entry(texelFetch(second_entry, at, 0).r, height_of(texelFetch(second_depth, at, 0).r, t), kind != kPenumbra);
 }
 
 struct Share {
@@ -55,15 +55,20 @@ struct Share {
 };
 const Share kNoShare = Share(-1.0, kWholeDisk, false, false);
 
+// Whether a point is above the receiver's horizon by more than rounding explains.
+bool is_above_plane(vec3 p, Receiver r) {
+  vec3 way = p - r.x;
+  return dot(r.n, way) > kRounding * dot(abs(r.n), abs(way) + abs(r.x));
+}
+
 // Visibility by an edge and those that go on from it, or by the edge and the horizon. A boundary that contradicts what
 // is known of the disk's center is not the only one there: its edge alone is taken, moved to the center.
 Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
   int first = int(4u * facet);
   vec3 a = texelFetch(records, first + 1).xyz, b = texelFetch(records, first + 2).xyz;
-  vec3 plane = edge_plane(r.x, a, b);
-  Chord chord = chord_of_plane(plane, r.x, radius);
-  bool below = max(dot(r.n, a - r.x), dot(r.n, b - r.x)) <= kOnPlane * r.x.z;  // the receiver's own plane hides it
-  if (below || min(a.z, b.z) >= r.x.z || !(abs(chord.delta) < 1.0)) return kNoShare;
+  Chord chord = chord_of_plane(edge_plane(r.x, a, b));
+  bool below = !is_above_plane(a, r) && !is_above_plane(b, r);  // the receiver's own plane hides it
+  if (below || max(a.z, b.z) <= r.x.z || !(abs(chord.delta) < 1.0)) return kNoShare;
   if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, false, false);
   if (horizon.delta >= 1.0) {
     Past past = past_boundary(facet, other, a, b, chord, r.x);
@@ -77,20 +82,20 @@ Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
 }
 
 // The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the
-// same with |cxpv| in the other; with every distance along one line written as 1/weight it is (entry - x) / (2 (edge -
+// same with |cxpv| in the other; with every distance along one line written as a height it is (entry - x) / (2 (edge -
 // x)).
 Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   float edge = uintBitsToFloat(e.content);
-  if (r.weight >= e.weight || edge <= r.weight) return kNoShare;
-  float t = (e.weight - r.weight) / (2.0 * (edge - r.weight));
+  if (r.x.z >= e.height || edge <= r.x.z) return kNoShare;
+  float t = (e.height - r.x.z) / (2.0 * (edge - r.x.z));
   return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, false, false);
 }
 
 Share share_of(Entry e, uint other, Receiver r, Texel t, Chord horizon) {
   if (CONTENTS == kDistances) return share_of_distances(e, r, horizon);
-  // What a texel's width is worth on a boundary's slope of 1/radius in (x/z, y/z).
-  float slack = t.size * dot(t.direction, t.direction) / (t.direction.z * t.direction.z * radius);
-  return r.weight < e.weight + slack ? share_of_facet(e.content - 1u, other, r, horizon) : kNoShare;
+  // What a texel's width is worth on a boundary's slope of 1.
+  float slack = t.width * (1.0 + dot(t.uv, t.uv));
+  return r.x.z < e.height + slack ? share_of_facet(e.content - 1u, other, r, horizon) : kNoShare;
 }
 
 // Two penumbra entries are two occluders: hidden is what either hides. Two umbra entries are two sides of one occluder:
@@ -104,7 +109,7 @@ float union_of(Share one, Share two, bool umbra) {
 
 void main() {
   Receiver r = receiver_at(ivec2(gl_FragCoord.xy));
-  Chord horizon = chord_of_plane(r.n, r.x, radius);
+  Chord horizon = chord_of_plane(r.n);
   Texel t = texel_of(r.x);
   int kind = kind_of_entries(r, t);
   bool umbra = kind != kPenumbra;

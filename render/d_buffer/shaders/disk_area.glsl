@@ -1,5 +1,5 @@
-// How much of the disk chords leave. The twin of render/light/disk_area.h: the same formulas in float. gl_test.cpp runs
-// both on the same points.
+// How much of the disk chords leave. The twin of render/light/disk_area.h: the same formulas in float and, where there are
+// points, in light space. gl_test.cpp runs both on the same points.
 
 const float kPi = 3.14159265358979;
 
@@ -8,11 +8,18 @@ struct Chord {
   float delta;  // signed distance of the disk's center, in radii; positive: the center is inside
 };
 
-vec3 edge_plane(vec3 x, vec3 a, vec3 b) { return cross(a - x, b - a); }
-
-Chord chord_of_plane(vec3 n, vec3 x, float r) {
+// In light space (render/d_buffer/view/light_space.h) the way from a receiver to the point d of the unit disk runs along (d,
+// 1). A plane through the receiver cuts the chord n · (d, 1) = 0 from the disk.
+Chord chord_of_plane(vec3 n) {
   float size = length(n.xy);
-  return Chord(size > 0.0 ? n.xy / size : vec2(1.0, 0.0), -dot(n, x) / (r * size));
+  return Chord(size > 0.0 ? n.xy / size : vec2(1.0, 0.0), n.z / size);
+}
+
+// The plane through receiver x and the edge a → b. Light space is a mirror image of the world, so that this is the
+// opposite of disk_area.h's. By the end that is nearer to x: the other one may be so far away that rounding it matters.
+vec3 edge_plane(vec3 x, vec3 a, vec3 b) {
+  vec3 from_a = a - x, from_b = b - x;
+  return cross(b - a, dot(from_a, from_a) < dot(from_b, from_b) ? from_a : from_b);
 }
 
 // asin and acos by a series good to about 2e-7 (Abramowitz and Stegun 4.4.46): the built-in ones promise much less.

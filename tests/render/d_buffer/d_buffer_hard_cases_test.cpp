@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "render/d_buffer/entries/targets.h"
+#include "render/d_buffer/view/targets.h"
 #include "render/light/light_integrals.h"
 #include "tests/render/d_buffer/d_buffer_support.h"
 
@@ -114,16 +114,17 @@ TEST(DBuffer, CasterAcrossTheLightsPlane) {
   EXPECT_GT(static_cast<double>(dark), 0.98 * static_cast<double>(umbra));
 }
 
-/// A box at |x/z| up to `widest`, over a floor in the light's frame.
+/// A box at |x/z| up to `widest` and one below the light, over a floor in the light's frame.
 Scene box_at_tangent(double widest) {
   Scene scene = testing::scene_in_light_frame(0.4, {});
   const double nearest = 4.0, far = 10.0;
   // The window reaches to the box's outer corner plus the penumbra's width there.
   const double reach = 0.4 * (1.0 / nearest - 1.0 / far);
   const double outer = (widest - reach) * nearest;
-  scene.camera = {{0.6 * outer, 0, 1}, {2.0 * outer, 0, far}, {0, 1, 0}, 75};
+  scene.camera = {{0.3 * outer, 0, -4}, {outer, 0, far}, {0, 1, 0}, 75};
   scene.objects.push_back({"floor", testing::rectangle(-60, 60, -60, 60, far), Vec3(0.8), false});
   scene.objects.push_back({"box", make_box({outer - 0.7, 0, 4.5}, {0.7, 0.6, 0.5}), Vec3(0.8), true});
+  scene.objects.push_back({"middle", make_box({0, 0, 4.5}, {0.3, 0.3, 0.5}), Vec3(0.8), true});
   return scene;
 }
 

@@ -13,18 +13,19 @@ using testing::Values;
 using testing::View;
 
 struct PlacedReceivers {
-  std::vector<glm::vec4> positions, normals;
+  std::vector<glm::vec4> positions, planes;
   std::vector<float> seen;
+  detail::ImageReceivers image() const { return {static_cast<int>(positions.size()), 1, positions, planes}; }
 };
 
-/// In the light's frame, some of them outside of the window, some turned away from the light's center.
+/// In light space, some of them outside of the window, some turned away from the light's center.
 PlacedReceivers random_receivers(Random& random, int count) {
   PlacedReceivers out;
   for (int i = 0; i < count; ++i) {
-    const double z = random.spread(0.5, 8.0);
-    const glm::vec3 p(glm::dvec3(1.2 * z * random.point().x, 1.2 * z * random.point().y, z));
-    out.positions.emplace_back(p, random.uniform(0, 1) < 0.9 ? 1.0f : 0.0f);
-    out.normals.emplace_back(glm::vec3(random.direction()), 0.0f);
+    const glm::vec3 p(1.2 * random.point().x, 1.2 * random.point().y, random.spread(0.1, 2.0));
+    const double present = random.uniform(0, 1);
+    out.positions.emplace_back(p, present < 0.9 ? 1.0f : present < 0.95 ? 0.0f : -1.0f);
+    out.planes.emplace_back(glm::vec3(random.direction()), 0.0f);
     out.seen.push_back(random.uniform(0, 1) < 0.5 ? 0.0f : 1.0f);
   }
   return out;
@@ -35,24 +36,21 @@ TEST(ReceiverGrid, IsNeverAboveAReceiverInTheBounds) {
   const detail::Target target{glm::dmat3(1.0), {-1.0, 1.0, -1.0, 1.0}};
   for (int round = 0; round < 40; ++round) {
     const PlacedReceivers r = random_receivers(random, 1 + round * 5);
-    const detail::ImageReceivers image{static_cast<int>(r.positions.size()), 1, r.positions, glm::mat3(1.0f),
-                                       glm::vec3(0.0f)};
-    const double radius = random.spread(0.01, 1.0);
-    const detail::ReceiverGrid grid(image, r.normals, r.seen, target, 512, radius);
+    const detail::ReceiverGrid grid(r.image(), r.seen, target, 512);
     for (int query = 0; query < 50; ++query) {
       const glm::dvec2 corner(random.point()), size(random.spread(1e-3, 2.0), random.spread(1e-3, 2.0));
       const detail::UvBounds bounds{corner, corner + size};
       for (const SupportKind kind : {SupportKind::kPenumbra, SupportKind::kUmbra}) {
-        const double least = grid.least_weight(kind, bounds);
+        const double least = grid.least_height(kind, bounds);
         for (std::size_t i = 0; i < r.positions.size(); ++i) {
           const glm::dvec3 p(r.positions[i]);
-          const glm::dvec2 uv = glm::dvec2(p) / p.z;
+          const glm::dvec2 uv(p);
           const bool inside = glm::all(glm::greaterThanEqual(uv, bounds.low)) &&
                               glm::all(glm::lessThanEqual(uv, bounds.high)) &&
                               glm::all(glm::lessThan(glm::abs(uv), glm::dvec2(1.0)));
           const bool hidden = r.seen[i] < 0.5f;
-          if (r.positions[i].w == 0.0f || !inside || hidden != (kind == SupportKind::kUmbra)) continue;
-          EXPECT_LE(least, 1.0 / p.z) << "receiver " << i;
+          if (!(r.positions[i].w > 0.0f) || !inside || hidden != (kind == SupportKind::kUmbra)) continue;
+          EXPECT_LE(least, p.z) << "receiver " << i;
         }
       }
     }
@@ -61,16 +59,14 @@ TEST(ReceiverGrid, IsNeverAboveAReceiverInTheBounds) {
 
 TEST(ReceiverGrid, KnowsWhereNobodyIs) {
   const detail::Target target{glm::dmat3(1.0), {-1.0, 1.0, -1.0, 1.0}};
-  const std::vector<glm::vec4> positions{{0.5f, 0.5f, 1.0f, 1.0f}}, normals{{0.0f, 0.0f, -1.0f, 0.0f}};
-  const std::vector<float> seen{1.0f};
-  const detail::ImageReceivers image{1, 1, positions, glm::mat3(1.0f), glm::vec3(0.0f)};
-  const detail::ReceiverGrid grid(image, normals, seen, target, 512, 0.1);
+  const PlacedReceivers one{{{0.5f, 0.5f, 1.0f, 1.0f}}, {{0.0f, 0.0f, 1.0f, 0.0f}}, {1.0f}};
+  const detail::ReceiverGrid grid(one.image(), one.seen, target, 512);
   const detail::UvBounds near{{0.45, 0.45}, {0.55, 0.55}}, far{{-0.9, -0.9}, {-0.5, -0.5}};
-  EXPECT_LT(grid.least_weight(SupportKind::kPenumbra, near), 1.0);
-  EXPECT_GT(grid.least_weight(SupportKind::kPenumbra, near), 0.8);
-  EXPECT_EQ(grid.least_weight(SupportKind::kUmbra, near), detail::ReceiverGrid::kNone);
-  EXPECT_EQ(grid.least_weight(SupportKind::kPenumbra, far), detail::ReceiverGrid::kNone);
-  EXPECT_EQ(detail::ReceiverGrid().least_weight(SupportKind::kUmbra, far), -detail::ReceiverGrid::kNone);
+  EXPECT_LT(grid.least_height(SupportKind::kPenumbra, near), 1.0);
+  EXPECT_GT(grid.least_height(SupportKind::kPenumbra, near), 0.8);
+  EXPECT_EQ(grid.least_height(SupportKind::kUmbra, near), detail::ReceiverGrid::kNone);
+  EXPECT_EQ(grid.least_height(SupportKind::kPenumbra, far), detail::ReceiverGrid::kNone);
+  EXPECT_EQ(detail::ReceiverGrid().least_height(SupportKind::kUmbra, far), -detail::ReceiverGrid::kNone);
 }
 
 /// What entries say of a pixel must not hang on which others there are, though entries that no receiver reads

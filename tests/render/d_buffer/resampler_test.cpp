@@ -44,13 +44,18 @@ TEST(Resampler, SixteenRaysFindAHalfPlane) {
 struct Plane {
   Plane(int columns, int rows) : width(columns), height(rows) {
     for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) positions.emplace_back(x, y, 0.0f, 1.0f);
-    normals.assign(positions.size(), glm::vec4(0.0f, 0.0f, 1.0f, 0.0f));
+      for (int x = 0; x < width; ++x) positions.emplace_back(x, y, 0.0);
+    normals.assign(positions.size(), Vec3(0.0, 0.0, 1.0));
+    objects.assign(positions.size(), 0);
     open.assign(positions.size(), 1.0f);
   }
-  detail::ImageSurface image() const { return {width, height, positions, normals, open}; }
+  detail::ImageSurface image() const {
+    return {{.points = positions, .normals = normals, .objects = objects, .width = width, .height = height},
+            open};
+  }
   int width, height;
-  std::vector<glm::vec4> positions, normals;
+  std::vector<Vec3> positions, normals;
+  std::vector<std::int32_t> objects;
   Values open;
 };
 
@@ -104,7 +109,7 @@ TEST(Resampler, SlopesAndEdgesOfSurfacesAreNoJumps) {
   }
   expect_no_jump(plane, slope);
   for (std::size_t i = 0; i < edge.size(); ++i)
-    if (edge[i] > 0.0f) plane.positions[i].z = 7.0f;  // another surface
+    if (edge[i] > 0.0f) plane.positions[i].z = 7.0;  // another surface
   expect_no_jump(plane, edge);
 }
 
@@ -175,23 +180,23 @@ TEST(Resampler, NoiseOfSamplesIsAveragedOnFlatGroundOnly) {
   for (std::size_t i = 0; i < slope.size(); ++i) slope[i] = 0.02f * static_cast<float>(i % 24) + 0.27f;
   EXPECT_LT(worst_after_noisy_samples(plane, slope), 0.01f);
   for (std::size_t i = 0; i < plane.normals.size(); ++i) {
-    const float turn = 0.1f * static_cast<float>(i % 24) + 0.1f * static_cast<float>(i / 24 % 2);
-    plane.normals[i] = glm::vec4(0.0f, std::sin(turn), std::cos(turn), 0.0f);
+    const double turn = 0.1 * static_cast<double>(i % 24) + 0.1 * static_cast<double>(i / 24 % 2);
+    plane.normals[i] = Vec3(0.0, std::sin(turn), std::cos(turn));
   }
   EXPECT_GT(worst_after_noisy_samples(plane, slope), 0.05f);
 }
 
 TEST(Resampler, WhatNoNeighborCanContradictIsSampledAlways) {
   Plane plane(24, 20);
-  const auto turn = [&](std::uint32_t pixel) { plane.normals[pixel] = glm::vec4(1.0f, 0.0f, 0.0f, 0.0f); };
+  const auto turn = [&](std::uint32_t pixel) { plane.normals[pixel] = Vec3(1.0, 0.0, 0.0); };
   EXPECT_TRUE(detail::isolated_pixels(plane.image()).empty());
   const std::uint32_t leaf = 5 * 24 + 7, twig = 12 * 24 + 3;
   turn(leaf);
   for (std::uint32_t k = 0; k < 3; ++k) {  // one above the other: the middle one has two neighbors
     turn(twig + k * 24);
-    plane.positions[twig + k * 24].x = 3.0f;
+    plane.positions[twig + k * 24].x = 3.0;
   }
-  plane.positions[0].w = 0.0f;
+  plane.objects[0] = -1;
   const std::vector<std::uint32_t> isolated{leaf, twig, twig + 2 * 24};
   EXPECT_EQ(detail::isolated_pixels(plane.image()), isolated);
   Oracle oracle{Values(24 * 20, 0.3f)};

@@ -1,4 +1,4 @@
-#include "render/d_buffer/entries/targets.h"
+#include "render/d_buffer/view/targets.h"
 
 #include <gtest/gtest.h>
 
@@ -12,15 +12,19 @@ namespace {
 using testing::Random;
 
 TEST(ChooseTargets, OneWindowWhereItFitsElseFiveSides) {
-  EXPECT_TRUE(detail::choose_targets({1e300, 1e300}, {-1e300, -1e300}, 1024).empty());
-  const auto one = detail::choose_targets({-0.5, 0.25}, {1.0, detail::kWidestWindow}, 104);
-  ASSERT_EQ(one.size(), 1u);
+  const detail::UvBounds narrow{{-0.5, 0.25}, {1.0, detail::kWidestWindow}};
+  EXPECT_FALSE(detail::needs_hemicube(narrow));
+  const detail::Target one = detail::one_target(narrow, 104);
   const double wanted[4] = {-0.545, 1.045, 0.205, detail::kWidestWindow + 0.045};  // a margin of two texels
-  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(one[0].window[k], wanted[k], 1e-12);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(one.window[k], wanted[k], 1e-12);
   const double wide = detail::kWidestWindow + 1e-6;
-  EXPECT_EQ(detail::choose_targets({-0.5, 0.25}, {0.9, wide}, 1024).size(), 2u) << "front and +y";
-  EXPECT_EQ(detail::choose_targets({-0.5, 0.25}, {1.1, wide}, 1024).size(), 3u) << "and +x";
-  const auto five = detail::choose_targets({-wide, -1.0}, {1.0, 1.0}, 1024);
+  const detail::UvBounds two_sides{{-0.5, 0.25}, {0.9, wide}}, three_sides{{-0.5, 0.25}, {1.1, wide}},
+      five_sides{{-wide, -1.0}, {1.0, 1.0}}, far_from_the_axis{{1e6, -3.0}, {1e6 + 7.0, 4.0}};
+  for (const auto& bounds : {two_sides, three_sides, five_sides}) EXPECT_TRUE(detail::needs_hemicube(bounds));
+  EXPECT_FALSE(detail::needs_hemicube(far_from_the_axis)) << "stretched as a whole";
+  EXPECT_EQ(detail::hemicube(two_sides).size(), 2u) << "front and +y";
+  EXPECT_EQ(detail::hemicube(three_sides).size(), 3u) << "and +x";
+  const auto five = detail::hemicube(five_sides);
   ASSERT_EQ(five.size(), 5u);
   for (const detail::Target& t : five) EXPECT_NEAR(glm::determinant(t.axes), 1.0, 1e-15) << "none mirrors";
   // Every direction in front of the light lies in exactly one side (but for borders).

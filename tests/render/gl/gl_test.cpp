@@ -30,7 +30,7 @@ void main() {
   if (formula == 1) result = half_plane_area_fast(p.x);
   if (formula == 2) result = two_half_planes_area(Chord(p.xy, p.z), Chord(q.xy, q.z));
   if (formula >= 3) {
-    Chord c = chord_of_plane(edge_plane(p.xyz, q.xyz, s.xyz), p.xyz, p.w);
+    Chord c = chord_of_plane(edge_plane(p.xyz, q.xyz, s.xyz));
     result = formula == 3 ? half_plane_area(c.delta) : formula == 4 ? c.normal.x : c.normal.y;
   }
 }
@@ -86,9 +86,6 @@ std::vector<float> run_shader(gl::Context& context, const Inputs& inputs, Formul
 
 glm::vec4 to_float(const Vec3& p, double fourth = 0.0) {
   return glm::vec4(glm::dvec4(p, fourth));
-}
-Vec3 to_double(const glm::vec4& p) {
-  return {p.x, p.y, p.z};
 }
 
 /// A float chord whose normal is a unit vector as well as float has it, and the same chord in double,
@@ -167,8 +164,16 @@ TEST_P(GlBackend, TwoHalfPlanesAreaIsThatOfCpp) {
   });
 }
 
-// Float is exact to 6e-8 of coordinates up to 4; the plane's normal loses what its sines lose, and δ once
-// more where the disk is small: inputs are those where the product of it all stays below 1e-5.
+/// A point of light space where the light's frame, with the disk of radius 1 in z = 0, has p: (x/z, y/z, 1/z).
+Vec3 in_light_space(const Vec3& p) {
+  return {p.x / p.z, p.y / p.z, 1.0 / p.z};
+}
+Vec3 in_light_frame(const glm::vec4& p) {
+  return {double{p.x} / double{p.z}, double{p.y} / double{p.z}, 1.0 / double{p.z}};
+}
+
+// Float is exact to 6e-8 of coordinates up to 4, the plane's normal loses what its sines lose: inputs are those
+// where the product of it all stays below 1e-5.
 TEST_P(GlBackend, ChordsOfEdgesAreThoseOfCpp) {
   Random random(kSeed);
   Inputs inputs;
@@ -176,17 +181,18 @@ TEST_P(GlBackend, ChordsOfEdgesAreThoseOfCpp) {
     const Vec3 x{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(1, 3)};
     const Vec3 a{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.2, 0.8) * x.z};
     const Vec3 b = a + random.uniform(0.1, 1.0) * random.direction();
-    const double r = random.uniform(0.1, 1.0);
-    const Vec3 n = edge_plane(x, a, b);
-    if (glm::length(n) < 0.2 * glm::length(b - a) * glm::length(a - x) ||
+    if (b.z < 0.2) continue;
+    const Vec3 n = edge_plane(in_light_space(x), in_light_space(a), in_light_space(b));
+    if (glm::length(n) < 0.2 * glm::length(in_light_space(b) - in_light_space(a)) *
+                             glm::length(in_light_space(a) - in_light_space(x)) ||
         std::hypot(n.x, n.y) < 0.3 * glm::length(n))
       continue;
-    inputs.add(to_float(x, r), to_float(a), to_float(b));
+    inputs.add(to_float(in_light_space(x)), to_float(in_light_space(a)), to_float(in_light_space(b)));
   }
   const auto chord = [&](std::size_t i) {
-    const Vec3 x = to_double(inputs.rows[0][i]);
-    return chord_of_plane(edge_plane(x, to_double(inputs.rows[1][i]), to_double(inputs.rows[2][i])), x,
-                          inputs.rows[0][i].w);
+    const Vec3 x = in_light_frame(inputs.rows[0][i]);
+    return chord_of_plane(edge_plane(x, in_light_frame(inputs.rows[1][i]), in_light_frame(inputs.rows[2][i])),
+                          x, 1.0);
   };
   expect_same(inputs, kVisibilityOfEdge, 1e-5,
               [&](std::size_t i) { return half_plane_area(chord(i).delta); });
