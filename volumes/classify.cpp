@@ -33,7 +33,7 @@ Counts sum(Counts a, const Counts& b) {
   return a;
 }
 
-FaceClass classify_hard_face(const Corners& f, const DiskLight& light, TierTally& tally) {
+FaceClass classify_hard_face(const Corners& f, const CircularLight& light, TierTally& tally) {
   if (const auto decided = detail::filter::classify_face(f.a, f.b, f.c, light)) {
     ++tally.filter;
     return *decided;
@@ -48,7 +48,7 @@ FaceClass classify_hard_face(const Corners& f, const DiskLight& light, TierTally
 
 /// Everything that the loop reads is a local of its own: stores of classes, being bytes, might otherwise
 /// change it as far as the compiler knows.
-Counts classify_some(const TriangleMesh& mesh, const DiskLight& light, std::size_t begin, std::size_t end,
+Counts classify_some(const TriangleMesh& mesh, const CircularLight& light, std::size_t begin, std::size_t end,
                      FaceClass* out) {
   const detail::QuickClassifier quickly(light);
   const double bound = quickly.bound_of(mesh);
@@ -92,7 +92,7 @@ Counts classify_some(const TriangleMesh& mesh, const DiskLight& light, std::size
 
 }  // namespace
 
-Classification classify_faces(const TriangleMesh& mesh, const DiskLight& light) {
+Classification classify_faces(const TriangleMesh& mesh, const CircularLight& light) {
   Classification result;
   result.faces.resize(mesh.triangles().size());
 

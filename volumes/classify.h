@@ -28,6 +28,6 @@ struct Classification {
 
 /// Classifies every face exactly. A face whose plane touches the disk is mixed, and so is one without area.
 /// Mesh and light are in the same frame. Deterministic, on all cores from some thousand faces on. Cost O(F).
-Classification classify_faces(const TriangleMesh& mesh, const DiskLight& light);
+Classification classify_faces(const TriangleMesh& mesh, const CircularLight& light);
 
 }  // namespace penumbra

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "mesh/vectors.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/volumes/predicates/predicates.h"
 #include "penumbra/volumes/tangent_planes.h"
@@ -54,7 +55,7 @@ bool turn_outward(HalfSpace& h, const std::array<Vec3, 4>& inside) {
 /// One convex body in front of the light: a component of a mesh, with the classes of its faces.
 class UmbraOfBody {
  public:
-  UmbraOfBody(const TriangleMesh& mesh, const Component& component, const DiskLight& light,
+  UmbraOfBody(const TriangleMesh& mesh, const Component& component, const CircularLight& light,
               const Classification& classes, const detail::ShadowReach& reach)
       : mesh_(mesh), component_(component), light_(light), classes_(classes), reach_(reach) {}
 
@@ -82,23 +83,29 @@ class UmbraOfBody {
   }
 
   /// A face that looks away has its third vertex on the disk's side of kFirst along its own direction of the
-  /// edge (predicates.h). A convex body is on one side with it. Where rounding takes the contact onto the
-  /// edge's line, the plane of the face that looks away is taken: it is the limit, and takes away too much
-  /// rather than too little.
+  /// edge (predicates.h). A convex body is on one side with it. Its third point lies on the way to the contact, as
+  /// far from the edge as the edge is from the origin or further, so that rounding turns the plane by some 2^-53.
+  /// Where rounding takes that point onto the edge's line, the plane of the face that looks away is taken: it is
+  /// the limit, and takes away too much rather than too little.
   HalfSpace tangent_half_space(const Edge& edge, const std::array<Vec3, 4>& inside) const {
     const bool left_away = looks_away(edge.left);
     const Vec3 &from = mesh_.position(edge.from), &to = mesh_.position(edge.to);
     const auto planes = tangent_planes(from, to, light_);
-    HalfSpace h{from, to, planes ? (*planes)[left_away ? 0 : 1].contact : from};
+    HalfSpace h{from, to, from};
+    if (planes) {
+      const Vec3& way = (*planes)[left_away ? 0 : 1].way;
+      const double far = detail::largest_component(from) / detail::largest_component(way);
+      h[2] += (far > 1.0 ? far : 1.0) * way;
+    }
     if (detail::collinear(h[0], h[1], h[2]) || !turn_outward(h, inside))
       return corners(left_away ? edge.left : edge.right);
     return h;
   }
 
   void add_box(UmbraBounds& bounds) const {
-    double half = reach_.distance();
+    double half = reach_.bound_radius;
     for (const FaceId f : component_.faces) {
-      for (const Vec3& p : corners(f)) half = std::max(half, glm::length(p - reach_.center));
+      for (const Vec3& p : corners(f)) half = std::max(half, glm::length(p - reach_.bound_center));
     }
     half *= 2.0;
     const auto source = static_cast<std::uint32_t>(component_.faces.front());
@@ -106,7 +113,8 @@ class UmbraOfBody {
       for (int axis = 0; axis < 3; ++axis) {
         const auto at = [&](double y, double z) {
           const std::array<const Vec3*, 3> axes{&reach_.frame.u, &reach_.frame.v, &reach_.frame.w};
-          return reach_.center + side * *axes[axis] + y * *axes[(axis + 1) % 3] + z * *axes[(axis + 2) % 3];
+          return reach_.bound_center + side * *axes[axis] + y * *axes[(axis + 1) % 3] +
+                 z * *axes[(axis + 2) % 3];
         };
         HalfSpace h{at(-half, -half), at(half, -half), at(-half, half)};
         if (side < 0.0) std::swap(h[1], h[2]);
@@ -117,14 +125,14 @@ class UmbraOfBody {
 
   const TriangleMesh& mesh_;
   const Component& component_;
-  const DiskLight& light_;
+  const CircularLight& light_;
   const Classification& classes_;
   const detail::ShadowReach& reach_;
 };
 
 class UmbraExtruder {
  public:
-  UmbraExtruder(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
+  UmbraExtruder(const TriangleMesh& mesh, const CircularLight& light, const Classification& classes,
                 const ExtrudeOptions& options)
       : mesh_(mesh),
         light_(light),
@@ -222,7 +230,7 @@ class UmbraExtruder {
   }
 
   const TriangleMesh& mesh_;
-  const DiskLight& light_;
+  const CircularLight& light_;
   const Classification& classes_;
   const ExtrudeOptions& options_;
   detail::ShadowReach reach_;
@@ -231,7 +239,7 @@ class UmbraExtruder {
 
 }  // namespace
 
-ShadowMesh convex_umbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
+ShadowMesh convex_umbra(const TriangleMesh& mesh, const CircularLight& light, const Classification& classes,
                         const ExtrudeOptions& options) {
   return UmbraExtruder(mesh, light, classes, options).run();
 }

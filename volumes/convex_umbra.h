@@ -33,7 +33,7 @@ namespace penumbra {
 ///
 /// Deterministic, bodies on all cores. Throws UsageError for options outside their domain, Cancelled.
 /// Expected cost O(F log F) for each body, in exact arithmetic: about 0.015 ms a face.
-ShadowMesh convex_umbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
+ShadowMesh convex_umbra(const TriangleMesh& mesh, const CircularLight& light, const Classification& classes,
                         const ExtrudeOptions& options = {});
 
 }  // namespace penumbra

@@ -19,7 +19,7 @@ namespace penumbra {
 
 struct ExtrudeOptions {
   /// A sphere, in scene units, that the far end of every volume lies beyond. Radius 0: ten times the sphere
-  /// around caster and light.
+  /// around caster and light, or around the caster alone where the light is distant.
   Vec3 bound_center{0.0};
   double bound_radius = 0.0;
   /// Corners of the polygon around the disk, at least 3. In sheets: per full turn of a cone.
@@ -52,8 +52,8 @@ struct ExtrudeOptions {
 /// separates all of the vertex's neighbors from the disk.
 ///
 /// Throws UsageError for options outside their domain, Cancelled. Cost O(band · ring).
-ShadowMesh extrude_sheets(const TriangleMesh& mesh, const DiskLight& light, const Silhouettes& silhouettes,
-                          const ExtrudeOptions& options = {});
+ShadowMesh extrude_sheets(const TriangleMesh& mesh, const CircularLight& light,
+                          const Silhouettes& silhouettes, const ExtrudeOptions& options = {});
 
 /// A volume that contains every point in front of the light's plane, within the bound, at which the caster
 /// blocks some of the disk's area. It also contains the caster's own body. What lies in the light's plane or
@@ -70,7 +70,7 @@ ShadowMesh extrude_sheets(const TriangleMesh& mesh, const DiskLight& light, cons
 ///
 /// Deterministic, cells on all cores. Throws UsageError for options outside their domain, Cancelled. Cost
 /// O(F log F + v log v), v being the number of the cells' vertices: `cone_segments` and more for each cell.
-ShadowMesh extrude_penumbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
-                            const ExtrudeOptions& options = {});
+ShadowMesh extrude_penumbra(const TriangleMesh& mesh, const CircularLight& light,
+                            const Classification& classes, const ExtrudeOptions& options = {});
 
 }  // namespace penumbra

@@ -31,7 +31,7 @@ struct Body {
 
 class PenumbraExtruder {
  public:
-  PenumbraExtruder(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
+  PenumbraExtruder(const TriangleMesh& mesh, const CircularLight& light, const Classification& classes,
                    const ExtrudeOptions& options)
       : mesh_(mesh),
         classes_(classes),
@@ -191,8 +191,8 @@ class PenumbraExtruder {
 
 }  // namespace
 
-ShadowMesh extrude_penumbra(const TriangleMesh& mesh, const DiskLight& light, const Classification& classes,
-                            const ExtrudeOptions& options) {
+ShadowMesh extrude_penumbra(const TriangleMesh& mesh, const CircularLight& light,
+                            const Classification& classes, const ExtrudeOptions& options) {
   return PenumbraExtruder(mesh, light, classes, options).run();
 }
 

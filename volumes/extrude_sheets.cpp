@@ -21,7 +21,7 @@ constexpr double kGreatestScale = 1e4;
 
 class SheetExtruder {
  public:
-  SheetExtruder(const TriangleMesh& mesh, const DiskLight& light, const Supports& supports,
+  SheetExtruder(const TriangleMesh& mesh, const CircularLight& light, const Supports& supports,
                 const ExtrudeOptions& options)
       : mesh_(mesh),
         supports_(supports),
@@ -33,7 +33,7 @@ class SheetExtruder {
     for (const SupportFacet& facet : supports_.facets) add_facet(facet);
     report(options_.progress, 0.5);
     for (const ConeSector& cone : supports_.cones)
-      if (cone.kind == SupportKind::kPenumbra && reach_.radius > 0.0) add_cone(cone);
+      if (cone.kind == SupportKind::kPenumbra && reach_.light.radius > 0.0) add_cone(cone);
     report(options_.progress, 1.0);
     return std::move(out_);
   }
@@ -46,10 +46,13 @@ class SheetExtruder {
     return std::cos(angle) * reach_.frame.u + std::sin(angle) * reach_.frame.v;
   }
 
+  /// From the disk's center to the rim.
+  Vec3 rim_offset(double angle) const { return reach_.light.radius * rim_direction(angle); }
+
   /// Normal, away from the disk, of the plane through the vertex that touches the rim at `angle`.
   Vec3 away_from_disk(std::uint32_t vertex, double angle) const {
-    const Vec3 contact = reach_.center + reach_.radius * rim_direction(angle);
-    const Vec3 normal = glm::cross(rim_direction(angle + 0.25 * kTurn), contact - position(vertex));
+    const Vec3 to_contact = rim_offset(angle) - reach_.from_center(position(vertex));
+    const Vec3 normal = glm::cross(rim_direction(angle + 0.25 * kTurn), to_contact);
     return glm::dot(normal, rim_direction(angle)) < 0.0 ? -normal : normal;
   }
 
@@ -73,9 +76,9 @@ class SheetExtruder {
   /// Facets and cones that meet along a ray share its far point. From a point light there is one ray a
   /// vertex.
   std::uint32_t far_end(std::uint32_t vertex, double angle, SupportKind kind) {
-    if (reach_.radius == 0.0) angle = 0.0;
+    if (reach_.light.radius == 0.0) angle = 0.0;
     const auto [at, is_new] = far_ends_.try_emplace({vertex, kind, angle}, 0u);
-    if (is_new) at->second = add_far_point(vertex, reach_.center + reach_.radius * rim_direction(angle));
+    if (is_new) at->second = add_far_point(vertex, rim_offset(angle));
     return at->second;
   }
 
@@ -103,8 +106,7 @@ class SheetExtruder {
   }
 
   std::uint32_t add_tangent_corner(std::uint32_t vertex, double angle, double half_step) {
-    const double distance = reach_.radius / std::cos(half_step);
-    return add_far_point(vertex, reach_.center + distance * rim_direction(angle));
+    return add_far_point(vertex, rim_offset(angle) / std::cos(half_step));
   }
 
   std::uint32_t near(std::uint32_t vertex) {
@@ -112,14 +114,16 @@ class SheetExtruder {
     return near_[vertex];
   }
 
-  /// On the ray from p through the vertex, at the far plane; for rays that graze the light's plane, at least
-  /// outside of the bound.
-  std::uint32_t add_far_point(std::uint32_t vertex, const Vec3& p) {
-    const Vec3 ray = position(vertex) - p;
-    const double depth = reach_.depth(position(vertex));
-    const double scale = std::max(2.0, reach_.far_depth / depth);
-    const double leave = std::max(2.0, 2.0 * reach_.distance() / glm::length(ray));
-    return add_position(p + (depth > 0.0 && scale <= kGreatestScale ? scale : leave) * ray);
+  /// On the ray from the point center + q of the light's plane through the vertex, at the far plane, or beyond
+  /// the vertex by the caster's size where that is further; for rays that graze the light's plane, at least outside
+  /// of the bound.
+  std::uint32_t add_far_point(std::uint32_t vertex, const Vec3& q) {
+    const Vec3& k = position(vertex);
+    const double gain = std::max(mesh_.bounds().radius(), reach_.far_height - reach_.height(k));
+    if (reach_.light.is_distant() || gain <= kGreatestScale * reach_.depth(k))
+      return add_position(k + gain * reach_.ray(k, q));
+    const Vec3 way = reach_.from_center(k) - q;
+    return add_position(k + std::max(1.0, 2.0 * reach_.distance() / glm::length(way)) * way);
   }
 
   std::uint32_t add_position(const Vec3& p) {
@@ -145,8 +149,8 @@ class SheetExtruder {
 
 }  // namespace
 
-ShadowMesh extrude_sheets(const TriangleMesh& mesh, const DiskLight& light, const Silhouettes& silhouettes,
-                          const ExtrudeOptions& options) {
+ShadowMesh extrude_sheets(const TriangleMesh& mesh, const CircularLight& light,
+                          const Silhouettes& silhouettes, const ExtrudeOptions& options) {
   const Supports supports = find_supports(mesh, VertexRings(mesh), light, silhouettes);
   return SheetExtruder(mesh, light, supports, options).run();
 }

@@ -4,7 +4,9 @@
 // lies where n·p ≤ r. Through a vertex v it has κ = (r - cos φ v.x - sin φ v.y) / v.z, so that the side of q
 // is, times v.z,
 //   A cos φ + B sin φ + C,   A = d.x v.z - v.x d.z,  B = d.y v.z - v.y d.z,  C = r d.z,  d = q - v:
-// positive beyond the plane, negative on the disk's side. Everything below is this one expression.
+// positive beyond the plane, negative on the disk's side. Everything below is this one expression. v is the way from
+// the light's center to the vertex; of a distant light it is (0, 0, 1), and the expression is still right. d is the
+// difference of two vertices as they are, which a light far away does not round.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
@@ -36,8 +38,7 @@ constexpr double kSharpestTurn = 0.7 * kPi;
 
 struct SideOfPlane {
   double a, b, c;
-  SideOfPlane(const Vec3& v, const Vec3& q, double r) {
-    const Vec3 d = q - v;
+  SideOfPlane(const Vec3& v, const Vec3& d, double r) {
     a = d.x * v.z - v.x * d.z;
     b = d.y * v.z - v.y * d.z;
     c = r * d.z;
@@ -59,12 +60,14 @@ double diamond_angle(double x, double y) {
   return x >= 0.0 ? y / size : y >= 0.0 ? 2.0 - y / size : -2.0 - y / size;
 }
 
-/// A vertex and what is around it, in the light's frame.
+/// A vertex and what is around it, along the axes of the light's frame.
 struct Star {
+  /// The ways from the vertex to the other end of an edge and to the apexes of the faces beside it.
   struct Spoke {
     Vec3 end, left;
-    std::optional<Vec3> right;  ///< apexes of the faces beside it
+    std::optional<Vec3> right;
   };
+  /// The way from the light's center to the vertex.
   Vec3 center{0.0};
   std::vector<Spoke> spokes;
 };
@@ -99,16 +102,14 @@ std::vector<char> ends_of_facets(const TriangleMesh& mesh, const Supports& suppo
 
 class CornerFinder {
  public:
-  CornerFinder(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light, Supports& supports)
-      : mesh_(mesh), rings_(rings), r_(light.radius), local_(mesh.positions().size()), out_(supports) {
-    const LightFrame frame = light_frame(light);
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, local_.size(), 4096), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-        const Vec3 p = mesh.positions()[i] - light.center;
-        local_[i] = {glm::dot(p, frame.u), glm::dot(p, frame.v), glm::dot(p, frame.w)};
-      }
-    });
-  }
+  CornerFinder(const TriangleMesh& mesh, const VertexRings& rings, const CircularLight& light,
+               Supports& supports)
+      : mesh_(mesh),
+        rings_(rings),
+        light_(light),
+        frame_(light_frame(light)),
+        r_(light.radius),
+        out_(supports) {}
 
   /// Links facets and finds cones, vertex by vertex, where `is_wanted(vertex)`.
   template <class IsWanted>
@@ -129,7 +130,7 @@ class CornerFinder {
       Scratch scratch;
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
         link_ends(corners[i], scratch);
-        if (local(corners[i][0].vertex).z > 0.0) find_cones(corners[i], scratch, cones[i]);
+        if (from_light(corners[i][0].vertex).z > 0.0) find_cones(corners[i], scratch, cones[i]);
       }
     });
     for (const auto& found : cones) out_.cones.insert(out_.cones.end(), found.begin(), found.end());
@@ -146,7 +147,7 @@ class CornerFinder {
       for (VertexId v : {e.from, e.to}) {
         if (done[index(v)]) continue;
         done[index(v)] = 1;
-        if (!(local(v).z > 0.0) || !(r_ > 0.0)) continue;
+        if (!(from_light(v).z > 0.0) || !(r_ > 0.0)) continue;
         find_star(v, star);
         if (ring_is_beyond(star, 0.0))
           out_.cones.push_back({v, SupportKind::kPenumbra, 0.0, 2.0 * kPi, kNoFacet, kNoFacet});
@@ -155,7 +156,13 @@ class CornerFinder {
   }
 
  private:
-  const Vec3& local(VertexId v) const { return local_[index(v)]; }
+  Vec3 along_axes(const Vec3& d) const {
+    return {glm::dot(d, frame_.u), glm::dot(d, frame_.v), glm::dot(d, frame_.w)};
+  }
+  Vec3 from_light(VertexId v) const { return along_axes(-way_to_center(light_, mesh_.position(v))); }
+  Vec3 between(VertexId from, VertexId to) const {
+    return along_axes(mesh_.position(to) - mesh_.position(from));
+  }
 
   template <class IsWanted>
   std::vector<FacetEnd> sorted_ends(const IsWanted& is_wanted) const {
@@ -208,12 +215,12 @@ class CornerFinder {
   }
 
   void find_star(VertexId v, Star& star) const {
-    star.center = local(v);
+    star.center = from_light(v);
     star.spokes.clear();
     for (EdgeId id : rings_.edges(v)) {
       const Edge& e = mesh_.edges()[index(id)];
-      Star::Spoke spoke{local(e.from == v ? e.to : e.from), local(e.left_apex), std::nullopt};
-      if (!e.is_boundary()) spoke.right = local(e.right_apex);
+      Star::Spoke spoke{between(v, e.from == v ? e.to : e.from), between(v, e.left_apex), std::nullopt};
+      if (!e.is_boundary()) spoke.right = between(v, e.right_apex);
       star.spokes.push_back(spoke);
     }
   }
@@ -236,8 +243,8 @@ class CornerFinder {
                       (r_ - std::cos(angle) * p.x - std::sin(angle) * p.y) / p.z};
     const Vec3 along = glm::cross(p - contact, beyond);
     const Vec3 across = beyond * glm::length(along), ahead = along * glm::length(beyond);
-    const auto bearing = [&](const Vec3& q) {
-      return diamond_angle(glm::dot(ahead, q - p), glm::dot(across, q - p));
+    const auto bearing = [&](const Vec3& d) {
+      return diamond_angle(glm::dot(ahead, d), glm::dot(across, d));
     };
     auto& wedges = scratch.wedges;
     wedges.clear();
@@ -268,14 +275,15 @@ class CornerFinder {
 
   const TriangleMesh& mesh_;
   const VertexRings& rings_;
+  const CircularLight light_;
+  const LightFrame frame_;
   const double r_;
-  std::vector<Vec3> local_;  ///< vertices in the light's frame
   Supports& out_;
 };
 
 }  // namespace
 
-Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const CircularLight& light,
                        const Silhouettes& silhouettes) {
   Supports out{find_support_facets(mesh, light, silhouettes), {}};
   CornerFinder finder(mesh, rings, light, out);
@@ -284,7 +292,7 @@ Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const
   return out;
 }
 
-void link_support_facets(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+void link_support_facets(const TriangleMesh& mesh, const VertexRings& rings, const CircularLight& light,
                          std::span<const char> in_use, Supports& supports) {
   const std::vector<char> wanted =
       ends_of_facets(mesh, supports, [&](std::size_t i) { return in_use[i] != 0; });

@@ -34,7 +34,7 @@ std::optional<SupportKind> facet_kind(Sign left, std::optional<Sign> right) {
 
 class FacetFinder {
  public:
-  FacetFinder(const TriangleMesh& mesh, const DiskLight& light)
+  FacetFinder(const TriangleMesh& mesh, const CircularLight& light)
       : mesh_(mesh), light_(light), frame_(light_frame(light)) {}
 
   /// The facets of one edge: its tangent planes that support the faces there.
@@ -73,13 +73,13 @@ class FacetFinder {
 
  private:
   const TriangleMesh& mesh_;
-  const DiskLight& light_;
+  const CircularLight& light_;
   const LightFrame frame_;
 };
 
 }  // namespace
 
-std::vector<SupportFacet> find_support_facets(const TriangleMesh& mesh, const DiskLight& light,
+std::vector<SupportFacet> find_support_facets(const TriangleMesh& mesh, const CircularLight& light,
                                               const Silhouettes& silhouettes) {
   const FacetFinder finder(mesh, light);
   std::vector<FacetFinder::EdgeFacets> found(silhouettes.band.size());
@@ -94,7 +94,7 @@ std::vector<SupportFacet> find_support_facets(const TriangleMesh& mesh, const Di
   return out;
 }
 
-std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const DiskLight& light,
+std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const CircularLight& light,
                                     const Classification& classes, const Supports& supports) {
   std::vector<GapFace> gaps;
   std::vector<bool> seen(mesh.triangles().size(), false);
@@ -105,7 +105,7 @@ std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const DiskLight& l
       seen[index(f)] = true;
       const IndexedTriangle& t = mesh.triangles()[index(f)];
       const Vec3 &a = mesh.positions()[t[0]], &b = mesh.positions()[t[1]], &c = mesh.positions()[t[2]];
-      if (glm::dot(glm::cross(b - a, c - a), a - light.center) > 0.0) gaps.push_back({f, facet});
+      if (glm::dot(glm::cross(b - a, c - a), way_to_center(light, a)) < 0.0) gaps.push_back({f, facet});
     }
   };
   for (std::uint32_t i = 0; i < supports.facets.size(); ++i)

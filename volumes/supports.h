@@ -34,7 +34,7 @@ struct SupportFacet {
   /// (b - a), the lit side is the positive one.
   bool flipped;
   /// Where its plane touches the disk: center + radius (cos·u + sin·v), u and v of light_frame; radians in
-  /// [0, 2π).
+  /// [0, 2π). Of a distant light that is a direction, the center being -w.
   double rim_angle;
   /// The facets of the same kind that end at a and begin at b.
   std::uint32_t previous = kNoFacet, next = kNoFacet;
@@ -69,21 +69,21 @@ struct Supports {
 /// Finds all facets and cone sectors. The exact predicates decide which facets there are. Angles, and which
 /// sectors cones fill, are found in double. Only edges in front of the light's plane count; one that crosses
 /// it counts with its part in front. Cost O(band · ring).
-Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const CircularLight& light,
                        const Silhouettes& silhouettes);
 
 /// The first half of find_supports, for callers that can tell which facets are of use: the facets, not linked
 /// yet. Cost O(band).
-std::vector<SupportFacet> find_support_facets(const TriangleMesh& mesh, const DiskLight& light,
+std::vector<SupportFacet> find_support_facets(const TriangleMesh& mesh, const CircularLight& light,
                                               const Silhouettes& silhouettes);
 /// The second half: links, and cone sectors, at the vertices where a facet ends that is in use. `in_use` has
 /// one number for each facet, 0 for no. Other vertices get none, and there are no whole cones. Cost O(facets
 /// in use · ring).
-void link_support_facets(const TriangleMesh& mesh, const VertexRings& rings, const DiskLight& light,
+void link_support_facets(const TriangleMesh& mesh, const VertexRings& rings, const CircularLight& light,
                          std::span<const char> in_use, Supports& supports);
 
 /// Gap faces in the order of their steps from the umbra facets, then of facets. Cost O(F).
-std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const DiskLight& light,
+std::vector<GapFace> find_gap_faces(const TriangleMesh& mesh, const CircularLight& light,
                                     const Classification& classes, const Supports& supports);
 
 }  // namespace penumbra

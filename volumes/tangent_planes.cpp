@@ -20,13 +20,13 @@ struct EdgeView {
   double radius;  ///< divided by `scale`
 };
 
-EdgeView view_along(const Vec3& e, const Vec3& v1, const Vec3& m, const DiskLight& light) {
+EdgeView view_along(const Vec3& e, const Vec3& v1, const Vec3& m, const CircularLight& light) {
   Vec3 u2 = glm::cross(e, m);
   // Where e is nearly parallel to m the cross product is short and its error not; project once more.
   u2 = glm::dot(u2, u2) > 0.0 ? detail::unit(u2) : detail::unit_perpendicular(e);
   u2 = glm::normalize(u2 - glm::dot(u2, e) * e);
   const Vec3 u1 = glm::cross(u2, e);
-  const Vec3 w = light.center - v1;
+  const Vec3 w = way_to_center(light, v1);
   const double largest = std::max(detail::largest_component(w), light.radius);
   const double scale = largest > 0.0 ? largest : 1.0;
   const Vec3 scaled(w.x / scale, w.y / scale, w.z / scale);
@@ -55,6 +55,13 @@ std::array<Normal2, 2> tangent_normals(const EdgeView& v) {
   return {Normal2{root - q01, q00}, Normal2{q11, root - q01}};
 }
 
+/// The way from v1 to the disk's extreme point against the normal, and that point.
+TangentPlane plane_with(const Vec3& normal, const Vec3& v1, const CircularLight& light) {
+  const CircularLight around_zero(Vec3(0.0), light.normal, light.radius);
+  return {normal, extreme_points(light, normal).far,
+          way_to_center(light, v1) + extreme_points(around_zero, normal).far};
+}
+
 /// Where center - contact points, up to a positive factor: (e × (contact - v1))·(center - v1) without the
 /// cancellation.
 double turn_from_contact(const EdgeView& v, const Normal2& n) {
@@ -65,8 +72,9 @@ double turn_from_contact(const EdgeView& v, const Normal2& n) {
 }  // namespace
 
 std::optional<std::array<TangentPlane, 2>> tangent_planes(const Vec3& v1, const Vec3& v2,
-                                                          const DiskLight& light) {
-  if (line_outside_disk(v1, v2, light) == Sign::kNegative) return std::nullopt;
+                                                          const CircularLight& light) {
+  const Sign outside = line_outside_disk(v1, v2, light);
+  if (outside == Sign::kNegative || (outside == Sign::kZero && light.radius == 0.0)) return std::nullopt;
   const Vec3 e = detail::unit(v2 - v1), m = detail::unit(light.normal);
   const EdgeView view = view_along(e, v1, m, light);
   if (light.radius == 0.0 && view.w1 == 0.0 && view.w2 == 0.0) return std::nullopt;
@@ -92,13 +100,14 @@ std::optional<std::array<TangentPlane, 2>> tangent_planes(const Vec3& v1, const 
     roots[1] = {-roots[0].alpha, 0.0};
   }
 
-  // 3. Back to space. The contact is the disk's extreme point against the normal.
+  // 3. Back to space.
   std::array<TangentPlane, 2> planes;
   for (int i = 0; i < 2; ++i) {
-    const Vec3 normal = glm::normalize(roots[i].alpha * view.u1 + roots[i].beta * view.u2);
-    planes[i] = {normal, extreme_points(light, normal).far};
+    planes[i] = plane_with(glm::normalize(roots[i].alpha * view.u1 + roots[i].beta * view.u2), v1, light);
+    if (!in_light_plane || light.radius == 0.0) continue;
+    planes[i].contact = light.center;
+    planes[i].way = way_to_center(light, v1);
   }
-  if (in_light_plane && light.radius > 0.0) planes[0].contact = planes[1].contact = light.center;
   return planes;
 }
 

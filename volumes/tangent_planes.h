@@ -2,7 +2,7 @@
 // that are parallel to the light are no special case.
 //
 // A normal is n = αu1 + βu2, in a basis of the plane perpendicular to the edge that does not depend on the
-// center. With w = center - v1 and m the light's unit normal, the plane is tangent where q(n) = (n·w)² - r²|m
+// center. With w = center - v1 (of a distant light w = -m) and m the light's unit normal, the plane is tangent where q(n) = (n·w)² - r²|m
 // × n|² is 0. This quadratic form of α and β has two roots, the two planes. It is negative definite where the
 // edge's line crosses the open disk.
 #pragma once
@@ -17,8 +17,11 @@ namespace penumbra {
 struct TangentPlane {
   /// Unit. The disk lies in the closed half-space normal·(p - v1) ≥ 0.
   Vec3 normal;
-  /// The point of the disk on the plane, from where light grazes it.
+  /// The point of the disk on the plane, from where light grazes it. Of a distant light the direction to that
+  /// point, -m + radius · e with unit vectors m and e.
   Vec3 contact;
+  /// The way from v1 to the contact, which large coordinates do not round. Of a distant light it is the contact.
+  Vec3 way;
 };
 
 /// Both tangent planes through the line v1 → v2, which are different points. planes[0] is Tangent::kFirst of
@@ -32,6 +35,6 @@ struct TangentPlane {
 ///
 /// Normals are accurate to about 1e-12, but where the line nearly touches the rim; see the tests. Cost O(1).
 std::optional<std::array<TangentPlane, 2>> tangent_planes(const Vec3& v1, const Vec3& v2,
-                                                          const DiskLight& light);
+                                                          const CircularLight& light);
 
 }  // namespace penumbra

@@ -15,17 +15,22 @@ bool is_finite(const Vec3& v) {
 
 }  // namespace
 
-void require_valid(const DiskLight& light) {
-  if (!is_finite(light.center)) throw UsageError("the light's center is not finite");
+void require_valid(const CircularLight& light) {
+  const std::string normal = light.is_distant() ? "direction" : "normal";
   if (!is_finite(light.normal) || light.normal == Vec3(0.0)) {
-    throw UsageError("the light's normal is zero or not finite: give the direction in which it shines");
+    throw UsageError("the light's " + normal +
+                     " is zero or not finite: give the direction in which it shines");
+  }
+  if (!is_finite(light.center)) throw UsageError("the light's center is not finite");
+  if (light.is_distant() && !(light.radius >= 0.0)) {
+    throw UsageError("the light's angle is not a number of degrees from 0 to below 180");
   }
   if (!std::isfinite(light.radius) || light.radius < 0.0) {
     throw UsageError("the light's radius is negative or not finite: give 0 for a point light");
   }
 }
 
-ShadowVolumes build_shadow_volumes(const TriangleMesh& mesh, const DiskLight& light,
+ShadowVolumes build_shadow_volumes(const TriangleMesh& mesh, const CircularLight& light,
                                    const VolumeOptions& options) {
   require_valid(light);
   detail::require_valid(options.extrude);

@@ -1,4 +1,4 @@
-// The volumes of one caster under one disk light. The steps, in the order in which they happen:
+// The volumes of one caster under one circular light, near or distant. The steps, in the order in which they happen:
 //
 //   mesh/triangle_mesh.h     positions and triangles → half-edge mesh
 //   volumes/classify.h       mesh, light             → a class per face: all-frontfacing, none-frontfacing, mixed
@@ -50,10 +50,17 @@ struct ShadowVolumes {
 /// Throws MeshError for an empty mesh; UsageError for a light that require_valid refuses, or options outside
 /// their domain (whether or not something is extruded); Cancelled. Cost O(F + E), and that of what is
 /// extruded.
-ShadowVolumes build_shadow_volumes(const TriangleMesh& mesh, const DiskLight& light,
+ShadowVolumes build_shadow_volumes(const TriangleMesh& mesh, const CircularLight& light,
                                    const VolumeOptions& options = {});
 
-/// Throws UsageError unless the light is finite, its normal is not 0 and its radius is at least 0.
-void require_valid(const DiskLight& light);
+/// Throws UsageError unless the light is finite, its normal or direction is not 0, and its radius is at least 0 or its
+/// angle from 0 to below 180 degrees.
+void require_valid(const CircularLight& light);
+inline void require_valid(const DiskLight& light) {
+  require_valid(CircularLight(light));
+}
+inline void require_valid(const DistantLight& light) {
+  require_valid(CircularLight(light));
+}
 
 }  // namespace penumbra

@@ -64,7 +64,7 @@ void run(const Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
   const Light& of = scene.lights[scene.light_index(arguments.light)];
-  const DiskLight& light = require_disk(of.shape, "penumbra classify");
+  const CircularLight light = require_circular(of.shape, "penumbra classify");
   nlohmann::json report = nlohmann::json::array();
   std::string table =
       "object     faces     front     mixed      none    umbra  penumbra    band    filter interval    exact "

@@ -70,7 +70,7 @@ void check(const Arguments& arguments) {
 }
 
 void add_object(const Arguments& arguments, const SceneObject& object, std::size_t number,
-                const DiskLight& light, const VolumeOptions& options, Volumes& volumes) {
+                const CircularLight& light, const VolumeOptions& options, Volumes& volumes) {
   const std::size_t faces = object.mesh.triangles().size();
   ShadowVolumes made = build_shadow_volumes(object.mesh, light, options);
   nlohmann::json report = classification_report(made.classes);
@@ -98,7 +98,7 @@ void add_object(const Arguments& arguments, const SceneObject& object, std::size
   volumes.umbra.push_back(std::move(made.umbra));
 }
 
-Volumes build_volumes(const Arguments& arguments, const Scene& scene, const DiskLight& light) {
+Volumes build_volumes(const Arguments& arguments, const Scene& scene, const CircularLight& light) {
   Volumes volumes;
   VolumeOptions options{.sheets = arguments.wants_sheets(),
                         .penumbra = arguments.wants_penumbra(),
@@ -165,15 +165,17 @@ void run(const Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
   const std::vector<std::size_t> lights = chosen_lights(arguments, scene);
+  std::vector<CircularLight> circular;
   for (const std::size_t k : lights)
-    require_disk(scene.lights[k].shape,
-                 "penumbra volumes" +
-                     (lights.size() > 1 ? ", of light " + scene.lights[k].name + ", (see --light)" : ""));
+    circular.push_back(require_circular(
+        scene.lights[k].shape,
+        "penumbra volumes" +
+            (lights.size() > 1 ? ", of light " + scene.lights[k].name + ", (see --light)" : "")));
   nlohmann::json reports = nlohmann::json::array();
   bool good = true;
-  for (const std::size_t k : lights) {
-    const std::string name = lights.size() > 1 ? scene.lights[k].name : "";
-    const Volumes volumes = build_volumes(arguments, scene, std::get<DiskLight>(scene.lights[k].shape));
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const std::string name = lights.size() > 1 ? scene.lights[lights[i]].name : "";
+    const Volumes volumes = build_volumes(arguments, scene, circular[i]);
     if (arguments.common.verbose) say(volumes.objects);
     reports.push_back(write(arguments, volumes, name));
     if (arguments.check && arguments.report != "-")

@@ -1,11 +1,22 @@
 #include "apps/common/scene_volumes.h"
 
-namespace penumbra::apps {
+#include <glm/geometric.hpp>
 
-ExtrudeOptions extrude_options_for(const Scene& scene, const DiskLight& light) {
+namespace penumbra::apps {
+namespace {
+
+constexpr double kFarAway = 10.0;  // times the sphere around all objects
+
+}  // namespace
+
+ExtrudeOptions extrude_options_for(const Scene& scene, const CircularLight& light) {
   Bounds bounds = scene.bounds();
-  bounds.add(light.center - Vec3(light.radius));
-  bounds.add(light.center + Vec3(light.radius));
+  const bool near = !light.is_distant() &&
+                    glm::length(light.center - bounds.center()) + light.radius <= kFarAway * bounds.radius();
+  if (near) {
+    bounds.add(light.center - Vec3(light.radius));
+    bounds.add(light.center + Vec3(light.radius));
+  }
   ExtrudeOptions options;
   options.bound_center = bounds.center();
   options.bound_radius = 1.01 * bounds.radius();

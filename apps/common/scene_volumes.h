@@ -6,7 +6,8 @@
 
 namespace penumbra::apps {
 
-/// The bound is a sphere around all objects and this light: every volume reaches beyond it.
-ExtrudeOptions extrude_options_for(const Scene& scene, const DiskLight& light);
+/// The bound is a sphere around all objects, and the light where it is no further away than ten times their size. Every
+/// volume reaches beyond it.
+ExtrudeOptions extrude_options_for(const Scene& scene, const CircularLight& light);
 
 }  // namespace penumbra::apps

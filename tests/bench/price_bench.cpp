@@ -48,12 +48,13 @@ void classify_all_plain(const std::vector<glm::vec<3, T>>& p, const Input& in, s
   }
 }
 
-using Classify = FaceClass (*)(const Vec3&, const Vec3&, const Vec3&, const DiskLight&);
+using Classify = FaceClass (*)(const Vec3&, const Vec3&, const Vec3&, const CircularLight&);
 
 void classify_all(Classify classify, const Input& in, std::vector<FaceClass>& out) {
+  const CircularLight light = in.light;
   for (std::size_t i = 0; i < in.triangles.size(); ++i) {
     const IndexedTriangle& t = in.triangles[i];
-    out[i] = classify(in.positions[t[0]], in.positions[t[1]], in.positions[t[2]], in.light);
+    out[i] = classify(in.positions[t[0]], in.positions[t[1]], in.positions[t[2]], light);
   }
 }
 

@@ -52,7 +52,7 @@ struct ContainmentFigures {
 
 class ContainmentCheck {
  public:
-  ContainmentCheck(const TriangleMesh& mesh, const DiskLight& light, const ShadowMesh& volume,
+  ContainmentCheck(const TriangleMesh& mesh, const CircularLight& light, const ShadowMesh& volume,
                    const Bounds& box, std::uint64_t seed)
       : seed_(seed),
         random_(seed),
@@ -147,7 +147,7 @@ class ContainmentCheck {
   RandomInputs random_;
   const ShadowMesh& volume_;
   Bounds box_;
-  DiskLight light_;
+  CircularLight light_;
   ShadowOracle oracle_;
   ConvexPieces pieces_;
   Vec3 surface_{0.0};

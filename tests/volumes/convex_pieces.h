@@ -17,8 +17,8 @@ namespace penumbra::testing {
 class ConvexPieces {
  public:
   ConvexPieces(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles,
-               const DiskLight& light)
-      : positions_(positions), triangles_(triangles), center_(light.center), frame_(light_frame(light)) {
+               const CircularLight& light)
+      : positions_(positions), triangles_(triangles), light_(light), frame_(light_frame(light)) {
     compute_planes();
     collect();
     witness_.assign(pieces_.size(), 0);
@@ -148,8 +148,10 @@ class ConvexPieces {
     return leave;
   }
 
+  /// Rays of the light's center become parallel to the third axis; those of a distant light are.
   Vec3 project(const Vec3& x) const {
-    const Vec3 d = x - center_;
+    if (light_.is_distant()) return {glm::dot(x, frame_.u), glm::dot(x, frame_.v), glm::dot(x, frame_.w)};
+    const Vec3 d = x - light_.center;
     const double depth = glm::dot(d, frame_.w);
     return {glm::dot(d, frame_.u) / depth, glm::dot(d, frame_.v) / depth, -1.0 / depth};
   }
@@ -161,8 +163,8 @@ class ConvexPieces {
     Bounds box;
     for (const std::uint32_t i : triangles) {
       for (const std::uint32_t v : triangles_[i]) {
-        const double depth = glm::dot(positions_[v] - center_, frame_.w);
-        if (depth < 1e-6) return {Vec3(-kEverything), Vec3(kEverything)};
+        const double depth = glm::dot(positions_[v] - light_.center, frame_.w);
+        if (!light_.is_distant() && depth < 1e-6) return {Vec3(-kEverything), Vec3(kEverything)};
         box.add(project(positions_[v]));
       }
     }
@@ -197,7 +199,7 @@ class ConvexPieces {
 
   std::span<const Vec3> positions_;
   std::span<const IndexedTriangle> triangles_;
-  Vec3 center_;
+  CircularLight light_;
   LightFrame frame_;
   std::vector<std::uint32_t> parent_, witness_;
   std::vector<Plane> planes_;

@@ -11,6 +11,7 @@
 
 #include "penumbra/volumes/convex_umbra.h"
 #include "penumbra/volumes/volumes.h"
+#include "tests/volumes/light_samples.h"
 #include "tests/volumes/random_solids.h"
 #include "tests/volumes/umbra_oracle.h"
 
@@ -46,7 +47,7 @@ class SolidCheck {
     ASSERT_EQ(umbra_.guarantee, Guarantee::kExact) << "seed " << kSeed << " solid " << solid;
     const testing::TriangleTree umbra(umbra_.positions, umbra_.triangles),
         penumbra(penumbra_.positions, penumbra_.triangles);
-    const Vec3 outside = scene_.light.center - light_frame(scene_.light).w;
+    const Vec3 outside = testing::unshadowed_point(scene_.light, scene_.mesh.bounds(), 1.0);
     for (int i = 0; i < kPoints; ++i) {
       const Vec3 x = i % 2 ? near(i % 4 == 1 ? umbra_ : penumbra_) : anywhere();
       const bool dark = umbra_oracle_.is_wholly_hidden(x), shaded = oracle_.is_partly_hidden(x);
@@ -125,12 +126,17 @@ class SolidCheck {
   ShadowMesh umbra_, penumbra_;
 };
 
-TEST(ConvexSolids, UmbraIsExactAndPenumbraContains) {
+class ConvexSolids : public ::testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Lights, ConvexSolids, ::testing::Bool(),
+                         [](const auto& each) { return each.param ? "distant" : "disk"; });
+
+TEST_P(ConvexSolids, UmbraIsExactAndPenumbraContains) {
   const int solids = std::getenv("PENUMBRA_LONG") ? 1000 : 100;
   testing::RandomInputs random(kSeed);
   Figures figures;
   for (int k = 0; k < solids && !HasFailure(); ++k) {
-    const testing::ConvexScene scene = testing::random_convex_scene(random, k);
+    const testing::ConvexScene scene = testing::random_convex_scene(random, k, GetParam());
     SolidCheck(scene, random).run(figures, k);
   }
   std::cout << "  " << solids << " solids, " << figures.points << " points: " << figures.umbra

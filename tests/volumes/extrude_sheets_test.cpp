@@ -19,7 +19,7 @@ using testing::unmatched;
 
 /// Penumbra triangles of the sheets; half-edges that stay open must join two far points, or two vertices of
 /// the caster.
-void expect_closed_sheets(const TriangleMesh& mesh, const DiskLight& light, const std::string& what) {
+void expect_closed_sheets(const TriangleMesh& mesh, const CircularLight& light, const std::string& what) {
   SCOPED_TRACE(what);
   const ShadowVolumes v = build(mesh, light, true);
   std::vector<IndexedTriangle> penumbra;
@@ -54,6 +54,12 @@ TEST(ExtrudeSheets, CloseForConvexCasters) {
     expect_closed_sheets(cube.mesh, light, "cube, light " + std::to_string(radius));
     expect_closed_sheets(sphere.mesh, light, "sphere, light " + std::to_string(radius));
   }
+  for (const double angle : {0.0, 0.53, 20.0, 120.0}) {
+    const DistantLight sun{{0.3, -1, 0.2}, angle};
+    expect_closed_sheets(cube.mesh, sun, "cube, sun of " + std::to_string(angle));
+    expect_closed_sheets(sphere.mesh, sun, "sphere, sun of " + std::to_string(angle));
+  }
+  expect_closed_sheets(knife(), DistantLight{{0.01, -1, 0.005}, 40.0}, "knife edge under a sun");
   expect_closed_sheets(knife(), {{0.1, 10, 0.05}, {0, -1, 0}, 4.0}, "knife edge");
   expect_closed_sheets(make_cylinder({0.1, 5, 0}, 0.5, 1.0, 24), {{0.7, 10, 0.3}, {0.1, -1, 0}, 1.0},
                        "cylinder");
@@ -72,17 +78,16 @@ TEST(ExtrudeSheets, FullConeAtATip) {
   EXPECT_EQ(kinds[ShadowKind::kPenumbraFacet], 0);
 }
 
-TEST(ExtrudeSheets, FacetsLieInTangentPlanesAndFaceAwayFromTheirVolume) {
-  const auto scene = testing::load_scene("cube-medium");
-  const ShadowMesh sheets = build(scene.mesh, scene.light, true).sheets;
-  const Vec3 body = bounds_of(scene.mesh.positions()).center();
-  const LightFrame frame = light_frame(scene.light);
+void expect_tangent_facets(const TriangleMesh& mesh, const CircularLight& light) {
+  const ShadowMesh sheets = build(mesh, light, true).sheets;
+  const Vec3 body = mesh.bounds().center();
+  const LightFrame frame = light_frame(light);
   for (std::size_t i = 0; i < sheets.triangles.size(); ++i) {
     const Vec3 &a = sheets.positions[sheets.triangles[i][0]], &b = sheets.positions[sheets.triangles[i][1]],
                &c = sheets.positions[sheets.triangles[i][2]];
     const Vec3 n = glm::normalize(glm::cross(b - a, c - a));
-    const double center = glm::dot(n, scene.light.center - a),
-                 reach = scene.light.radius * glm::length(glm::cross(n, frame.w));
+    const double center = glm::dot(n, way_to_center(light, a)),
+                 reach = light.radius * glm::length(glm::cross(n, frame.w));
     EXPECT_LT(glm::dot(n, body - a), 0.0);
     switch (sheets.tags[i].kind) {
       case ShadowKind::kPenumbraFacet:
@@ -95,6 +100,13 @@ TEST(ExtrudeSheets, FacetsLieInTangentPlanesAndFaceAwayFromTheirVolume) {
         EXPECT_GT(center, reach - 1e-9);  // a cone's corner triangles are outside of the true cone
     }
   }
+}
+
+TEST(ExtrudeSheets, FacetsLieInTangentPlanesAndFaceAwayFromTheirVolume) {
+  const auto scene = testing::load_scene("cube-medium");
+  expect_tangent_facets(scene.mesh, scene.light);
+  expect_tangent_facets(scene.mesh, DistantLight{{0.3, -1, 0.2}, 0.53});
+  expect_tangent_facets(scene.mesh, DistantLight{{0.3, -1, 0.2}, 30.0});
 }
 
 TEST(ExtrudeSheets, ATriangleHasThreeFacetsOfEachKind) {

@@ -11,8 +11,8 @@ namespace penumbra::testing {
 
 struct ConvexScene {
   TriangleMesh mesh;  ///< one closed convex component, strictly in front of the light
-  DiskLight light;
-  Bounds box;  ///< of caster and receivers
+  CircularLight light = DiskLight{};
+  Bounds box{};  ///< of caster and receivers
 };
 
 /// The corners of the k-th solid of a run, about the origin, not larger than 2.
@@ -29,7 +29,7 @@ inline std::vector<Vec3> random_corners(RandomInputs& random, int k) {
   return corners;
 }
 
-inline ConvexScene random_convex_scene(RandomInputs& random, int k) {
+inline ConvexScene random_convex_scene(RandomInputs& random, int k, bool distant = false) {
   for (;;) {
     std::vector<Vec3> corners = random_corners(random, k);
     const std::vector<IndexedTriangle> hull = detail::convex_hull(corners);
@@ -38,9 +38,15 @@ inline ConvexScene random_convex_scene(RandomInputs& random, int k) {
     for (Vec3& p : corners) p = middle + p;  // rounded: no longer exactly a hull
     const std::vector<IndexedTriangle> moved = detail::convex_hull(corners);
     if (moved.empty()) continue;
-    ConvexScene scene{TriangleMesh::build(corners, moved), {}, {}};
-    scene.light = {Vec3(0, 10, 0), Vec3(random.uniform(-0.2, 0.2), -1, random.uniform(-0.2, 0.2)),
-                   std::pow(10.0, random.uniform(-3, 0.6))};
+    ConvexScene scene{.mesh = TriangleMesh::build(corners, moved)};
+    if (distant) {
+      const double length = std::pow(10.0, random.uniform(-3, 3));
+      scene.light = DistantLight{length * Vec3(random.uniform(-0.7, 0.7), -1, random.uniform(-0.7, 0.7)),
+                                 std::pow(10.0, random.uniform(-3, 2))};
+    } else {
+      scene.light = DiskLight{Vec3(0, 10, 0), Vec3(random.uniform(-0.2, 0.2), -1, random.uniform(-0.2, 0.2)),
+                              std::pow(10.0, random.uniform(-3, 0.6))};
+    }
     scene.box.add(Vec3(-6, 0, -6));
     scene.box.add(Vec3(6, 9, 6));
     bool in_front = true;

@@ -5,7 +5,8 @@
 // side planes. Where it meets the light's plane it is a convex region R; the triangle hides a positive area
 // of the disk iff R has an interior and its distance from the center is below the radius. The closest point
 // of R is the center, the foot of the perpendicular on one of its lines, or a corner where two meet: all
-// rational.
+// rational. Of a distant light the plane is that of the directions d with d·m = -m·m, its center -m and its radius
+// r|m|.
 #pragma once
 
 #include <array>
@@ -49,10 +50,12 @@ enum class Answer { kNo, kYes, kUnsure };
 /// Does the triangle hide a positive area of the disk from x? `slack` 0 asks for exact arithmetic; else
 /// comparisons closer than it (relative to the quantities compared) are unsure.
 template <class N>
-Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const DiskLight& light,
+Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const CircularLight& light,
                       double slack) {
   const Vector<N> x = vector_of<N>(at), c = vector_of<N>(light.center), m = vector_of<N>(light.normal);
-  const N mm = inner(m, m), depth_x = inner(m, minus(x, c));
+  const N mm = inner(m, m);
+  const Vector<N> to_center = light.is_distant() ? minus(Vector<N>{N(0), N(0), N(0)}, m) : minus(c, x);
+  const N depth_x = -inner(m, to_center);
   bool unsure = false;
   const auto sign = [&](const N& v, const N& scale) {
     if (slack > 0 && !(v > scale * slack || -v > scale * slack)) {
@@ -66,6 +69,11 @@ Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const
   std::vector<Vector<N>> polygon;
   bool in_front = false;
   for (int i = 0; i < 3; ++i) {
+    if (light.is_distant()) {
+      polygon.push_back(vector_of<N>(triangle[i]));
+      in_front = true;
+      continue;
+    }
     const Vector<N> p = vector_of<N>(triangle[i]), q = vector_of<N>(triangle[(i + 1) % 3]);
     const N dp = inner(m, minus(p, c)), dq = inner(m, minus(q, c));
     const int sp = sign(dp, depth_x), sq = sign(dq, depth_x);
@@ -86,21 +94,21 @@ Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const
   const int side = sign(height * height, N(inner(normal, normal) * inner(to_x, to_x)));
   if (unsure) return Answer::kUnsure;
   if (side == 0) return Answer::kNo;
-  bool nearer_than_x = false;
+  bool nearer_than_x = light.is_distant();
   std::vector<Vector<N>> planes;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vector<N> n = outer(minus(polygon[i], x), minus(polygon[(i + 1) % polygon.size()], x));
     planes.push_back(height > 0 ? minus(Vector<N>{N(0), N(0), N(0)}, n) : n);
-    if (sign(N(depth_x - inner(m, minus(polygon[i], c))), depth_x) > 0) nearer_than_x = true;
+    if (!light.is_distant() && sign(N(depth_x - inner(m, minus(polygon[i], c))), depth_x) > 0)
+      nearer_than_x = true;
   }
   if (unsure) return Answer::kUnsure;
   if (!nearer_than_x) return Answer::kNo;
 
-  // 3. The candidates for the point of R that is closest to the center.
-  const N radius2 = N(light.radius) * N(light.radius);
-  const auto reaches = [&](const Vector<N>& p, std::size_t skip1, std::size_t skip2, const N& ahead) {
-    if (sign(ahead, N(1)) < 0) return false;
-    const Vector<N> offset = minus(p, c), ray = minus(p, x);
+  // 3. The candidates for the point of R that is closest to the center, by the ways from x to them.
+  const N radius2 = N(light.radius) * N(light.radius) * (light.is_distant() ? mm : N(1));
+  const auto reaches = [&](const Vector<N>& ray, std::size_t skip1, std::size_t skip2) {
+    const Vector<N> offset = minus(ray, to_center);
     if (sign(N(radius2 - inner(offset, offset)), radius2) <= 0) return false;
     for (std::size_t k = 0; k < planes.size(); ++k) {
       if (k == skip1 || k == skip2) continue;
@@ -115,19 +123,19 @@ Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const
     return true;
   };
   const std::size_t none = planes.size();
-  bool hides = reaches(c, none, none, N(1));
+  bool hides = reaches(to_center, none, none);
   for (std::size_t i = 0; i < planes.size() && !hides; ++i) {
     const Vector<N> in_plane = plus(planes[i], N(-inner(planes[i], m) / mm), m);
     const N length2 = inner(in_plane, in_plane);
     if (!(length2 > 0)) continue;  // parallel to the light: no line in its plane
-    hides = reaches(plus(c, N(-inner(planes[i], minus(c, x)) / length2), in_plane), i, none, N(1));
+    hides = reaches(plus(to_center, N(-inner(planes[i], to_center) / length2), in_plane), i, none);
     for (std::size_t j = i + 1; j < planes.size() && !hides; ++j) {
       const Vector<N> line = outer(planes[i], planes[j]);
       sign(inner(line, line), N(inner(planes[i], planes[i]) * inner(planes[j], planes[j])));
       if (unsure) return Answer::kUnsure;
       const N slope = inner(m, line);
       if (!(slope > 0 || slope < 0)) continue;
-      hides = reaches(plus(x, N(inner(m, minus(c, x)) / slope), line), i, j, N(1));
+      hides = reaches(plus(Vector<N>{N(0), N(0), N(0)}, N(-depth_x / slope), line), i, j);
     }
   }
   if (hides) return Answer::kYes;
@@ -137,7 +145,7 @@ Answer triangle_hides(const Vec3& at, const std::array<Vec3, 3>& triangle, const
 /// O(x) < 1, exactly: some triangle hides a positive area. x in front of the light, radius above 0.
 class ShadowOracle {
  public:
-  ShadowOracle(const TriangleMesh& mesh, const DiskLight& light)
+  ShadowOracle(const TriangleMesh& mesh, const CircularLight& light)
       : tree_(mesh.positions(), mesh.triangles()),
         light_(light),
         unit_normal_(light.normal / std::sqrt(glm::dot(light.normal, light.normal))) {}
@@ -152,6 +160,12 @@ class ShadowOracle {
   /// A point of the cone from x to the disk is x + t(p - x): at most t·radius from the segment from x to the
   /// center.
   bool may_hide(const Vec3& x, const Bounds& box) const {
+    if (light_.is_distant()) {
+      const Vec3 d = box.center() - x;
+      const double size = box.radius() * (1.0 + 1e-9) + 1e-12, t = size - glm::dot(unit_normal_, d);
+      return t >= 0.0 &&
+             glm::length(glm::cross(d, unit_normal_)) <= size + t * light_.radius * (1.0 + 1e-9) + 1e-12;
+    }
     const Vec3 b = box.center(), axis = light_.center - x;
     const double ball = box.radius() * (1.0 + 1e-9) + 1e-12,
                  depth = glm::dot(unit_normal_, x - light_.center);
@@ -171,7 +185,7 @@ class ShadowOracle {
   }
 
   TriangleTree tree_;
-  DiskLight light_;
+  CircularLight light_;
   Vec3 unit_normal_;
   std::size_t exact_decisions_ = 0;
 };

@@ -17,13 +17,13 @@ constexpr double kPi = std::numbers::pi;
 
 struct Found {
   TriangleMesh mesh;
-  DiskLight light;
+  CircularLight light;
   Classification classes;
   Silhouettes silhouettes;
   Supports supports;
 };
 
-Found find(const TriangleMesh& mesh, const DiskLight& light) {
+Found find(const TriangleMesh& mesh, const CircularLight& light) {
   Found f{mesh, light, classify_faces(mesh, light), {}, {}};
   f.silhouettes = find_silhouettes(mesh, f.classes);
   f.supports = find_supports(mesh, VertexRings(mesh), light, f.silhouettes);
@@ -40,9 +40,15 @@ VertexId end_of(const Found& f, const SupportFacet& facet) {
   return facet.flipped ? edge_of(f, facet).from : edge_of(f, facet).to;
 }
 
-Vec3 contact_at(const DiskLight& light, double angle) {
+Vec3 contact_at(const CircularLight& light, double angle) {
   const LightFrame frame = light_frame(light);
   return light.center + light.radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v);
+}
+
+/// The way that light takes from the rim to p.
+Vec3 from_contact(const CircularLight& light, double angle, const Vec3& p) {
+  const LightFrame frame = light_frame(light);
+  return -way_to_center(light, p) - light.radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v);
 }
 
 std::size_t count(const Found& f, SupportKind kind) {
@@ -55,7 +61,7 @@ std::size_t count(const Found& f, SupportKind kind) {
 double delta_at(const Found& f, const SupportFacet& facet, const Vec3& x) {
   const Vec3 a = f.mesh.position(begin_of(f, facet)), b = f.mesh.position(end_of(f, facet));
   const Vec3 n = glm::cross(a - x, b - a);
-  return glm::dot(n, f.light.center - x) /
+  return glm::dot(n, way_to_center(f.light, x)) /
          (f.light.radius * glm::length(glm::cross(glm::normalize(f.light.normal), n)));
 }
 
@@ -63,16 +69,16 @@ double delta_at(const Found& f, const SupportFacet& facet, const Vec3& x) {
 /// side where the penumbra begins, wholly on the other where the umbra does.
 void expect_facets_turned_to_the_light(const Found& f) {
   for (const SupportFacet& facet : f.supports.facets) {
-    const Vec3 contact = contact_at(f.light, facet.rim_angle);
     const Vec3 a = f.mesh.position(begin_of(f, facet)), b = f.mesh.position(end_of(f, facet));
     for (const double along : {0.1, 0.5, 0.9}) {
       const Vec3 p = a + along * (b - a);
-      const Vec3 x = p + 0.7 * (p - contact);
+      const Vec3 x = p + 0.7 * from_contact(f.light, facet.rim_angle, p);
       const double expected = facet.kind == SupportKind::kPenumbra ? 1.0 : -1.0;
       ASSERT_NEAR(delta_at(f, facet, x), expected, 1e-9)
           << "edge " << index(facet.edge) << ", angle " << facet.rim_angle;
     }
-    const Vec3 x = a + 0.7 * (a - contact), normal = glm::normalize(glm::cross(a - x, b - a));
+    const Vec3 x = a + 0.7 * from_contact(f.light, facet.rim_angle, a),
+               normal = glm::normalize(glm::cross(a - x, b - a));
     const LightFrame frame = light_frame(f.light);
     const Vec3 along_rim = -std::sin(facet.rim_angle) * frame.u + std::cos(facet.rim_angle) * frame.v;
     ASSERT_NEAR(glm::dot(normal, along_rim), 0.0, 1e-9) << "the plane touches the rim at its angle";
@@ -113,9 +119,16 @@ void expect_one_loop(const Found& f, SupportKind kind) {
 
 // A cube's shadow from a corner's direction is a hexagon.
 const DiskLight kSmallLight{{6, 7, 8}, {-6, -7, -8}, 0.1};
+const DistantLight kSun{{-6, -7, -8}, 0.53};
 
-TEST(Supports, CubeUnderASmallLightHasOneFacetOfEachKindASilhouetteEdge) {
-  const Found f = find(make_box(Vec3(0.0), Vec3(1.0)), kSmallLight);
+class CubeUnder : public ::testing::TestWithParam<CircularLight> {};
+
+INSTANTIATE_TEST_SUITE_P(SmallLights, CubeUnder,
+                         ::testing::Values(CircularLight(kSmallLight), CircularLight(kSun)),
+                         [](const auto& each) { return each.param.is_distant() ? "sun" : "disk"; });
+
+TEST_P(CubeUnder, ASmallLightHasOneFacetOfEachKindASilhouetteEdge) {
+  const Found f = find(make_box(Vec3(0.0), Vec3(1.0)), GetParam());
   ASSERT_EQ(f.silhouettes.umbra.size(), 6u);
   ASSERT_EQ(f.silhouettes.umbra, f.silhouettes.penumbra);
   for (const SupportKind kind : {SupportKind::kPenumbra, SupportKind::kUmbra}) {
@@ -126,15 +139,15 @@ TEST(Supports, CubeUnderASmallLightHasOneFacetOfEachKindASilhouetteEdge) {
   }
 }
 
-TEST(Supports, CubesFacetsFormOneLoop) {
-  const Found f = find(make_box(Vec3(0.0), Vec3(1.0)), kSmallLight);
+TEST_P(CubeUnder, ASmallLightHasFacetsInOneLoop) {
+  const Found f = find(make_box(Vec3(0.0), Vec3(1.0)), GetParam());
   expect_links_match(f);
   expect_one_loop(f, SupportKind::kPenumbra);
   expect_one_loop(f, SupportKind::kUmbra);
 }
 
-TEST(Supports, CubesConesTurnOnceRoundTheDisk) {
-  const Found f = find(make_box(Vec3(0.0), Vec3(1.0)), kSmallLight);
+TEST_P(CubeUnder, ASmallLightHasConesThatTurnOnceRoundTheDisk) {
+  const Found f = find(make_box(Vec3(0.0), Vec3(1.0)), GetParam());
   double turn = 0.0;
   ASSERT_EQ(f.supports.cones.size(), 6u);
   for (const ConeSector& cone : f.supports.cones) {
@@ -157,14 +170,18 @@ TEST(Supports, CubesConesTurnOnceRoundTheDisk) {
 
 TEST(Supports, FacetsFaceTheLight) {
   expect_facets_turned_to_the_light(find(make_box(Vec3(0.0), Vec3(1.0)), kSmallLight));
+  expect_facets_turned_to_the_light(find(make_box(Vec3(0.0), Vec3(1.0)), kSun));
   for (const char* name : {"cube-medium", "cube-large", "sphere-medium", "torus-small", "torus-large",
                            "boxes-medium", "foliage-medium"}) {
     SCOPED_TRACE(name);
     const testing::SceneCaster scene = testing::load_scene(name);
-    const Found f = find(scene.mesh, scene.light);
-    EXPECT_GT(f.supports.facets.size(), 5u);
-    expect_facets_turned_to_the_light(f);
-    expect_links_match(f);
+    for (const CircularLight& light : {CircularLight(scene.light), CircularLight(kSun),
+                                       CircularLight(DistantLight{{0.1, -1, 0.2}, 40.0})}) {
+      const Found f = find(scene.mesh, light);
+      EXPECT_GT(f.supports.facets.size(), 5u);
+      expect_facets_turned_to_the_light(f);
+      expect_links_match(f);
+    }
   }
 }
 

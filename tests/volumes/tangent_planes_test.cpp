@@ -70,12 +70,22 @@ TEST(TangentPlanes, CoincidingPlanesFaceOppositeWays) {
   }
 }
 
-TEST(TangentPlanes, AgreeWithBruteForceOverTheRim) {
+CircularLight random_light(testing::RandomInputs& random, bool distant) {
+  const Vec3 normal = random.direction() * random.uniform(0.1, 9.0);
+  if (distant) return DistantLight{normal, random.uniform(0, 150)};
+  return {random.uniform_point(), normal, random.uniform(0, 1)};
+}
+
+class TangentPlanesOf : public ::testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Lights, TangentPlanesOf, ::testing::Bool(),
+                         [](const auto& each) { return each.param ? "distant" : "disk"; });
+
+TEST_P(TangentPlanesOf, RandomEdgesAgreeWithBruteForceOverTheRim) {
   constexpr std::uint64_t kSeed = 7;
   testing::RandomInputs random(kSeed);
   for (int k = 0; k < 2000; ++k) {
-    const DiskLight light{random.uniform_point(), random.direction() * random.uniform(0.1, 9.0),
-                          random.uniform(0, 1)};
+    const CircularLight light = random_light(random, GetParam());
     const Vec3 a = random.uniform_point(2.0);
     // Every fifth edge parallel to the light, every fifth perpendicular.
     Vec3 e = random.direction();
@@ -87,22 +97,24 @@ TEST(TangentPlanes, AgreeWithBruteForceOverTheRim) {
     ASSERT_EQ(planes.has_value(), line_outside_disk(a, b, light) != Sign::kNegative)
         << "seed " << kSeed << " input " << k;
     if (!planes) continue;
+    const Vec3 center = light.is_distant() ? -frame.w : light.center, to_center = way_to_center(light, a);
     for (int i = 0; i < 2; ++i) {
       const TangentPlane& plane = (*planes)[i];
       SCOPED_TRACE("seed " + std::to_string(kSeed) + " input " + std::to_string(k));
       ASSERT_NEAR(glm::length(plane.normal), 1.0, 1e-14);
       ASSERT_NEAR(glm::dot(plane.normal, e), 0.0, 1e-12);
-      ASSERT_NEAR(glm::length(plane.contact - light.center), light.radius, 1e-12);
-      ASSERT_NEAR(glm::dot(plane.contact - light.center, frame.w), 0.0, 1e-12);
+      ASSERT_NEAR(glm::length(plane.contact - center), light.radius, 1e-12);
+      ASSERT_NEAR(glm::dot(plane.contact - center, frame.w), 0.0, 1e-12);
+      ASSERT_NEAR(glm::length(plane.way - (to_center + (plane.contact - center))), 0.0, 1e-14);
       double least = std::numeric_limits<double>::infinity();
       for (int j = 0; j < 720; ++j) {
         const double t = 2 * std::numbers::pi * j / 720;
-        const Vec3 p = light.center + light.radius * (std::cos(t) * frame.u + std::sin(t) * frame.v);
-        least = std::min(least, glm::dot(plane.normal, p - a));
+        const Vec3 way = to_center + light.radius * (std::cos(t) * frame.u + std::sin(t) * frame.v);
+        least = std::min(least, glm::dot(plane.normal, way));
       }
       ASSERT_GE(least, -1e-12);                       // the disk on the positive side
       ASSERT_LE(least, 1e-4 * light.radius + 1e-12);  // and touching
-      const double turn = glm::dot(glm::cross(e, plane.contact - a), light.center - a);
+      const double turn = glm::dot(glm::cross(e, plane.way), to_center);
       ASSERT_GE(i == 0 ? turn : -turn, -1e-12);  // kFirst, kSecond as defined
       // The exact predicate agrees with the normal away from the plane.
       const Vec3 q = random.uniform_point(3.0);

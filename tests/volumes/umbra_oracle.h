@@ -11,7 +11,7 @@ namespace penumbra::testing {
 class UmbraOracle {
  public:
   /// One closed convex component strictly in front of the light; radius above 0.
-  UmbraOracle(const TriangleMesh& mesh, const DiskLight& light) : mesh_(mesh), light_(light) {}
+  UmbraOracle(const TriangleMesh& mesh, const CircularLight& light) : mesh_(mesh), light_(light) {}
 
   bool is_wholly_hidden(const Vec3& x) {
     constexpr double kSlack = 1e-9;
@@ -25,7 +25,8 @@ class UmbraOracle {
  private:
   template <class N>
   Answer hides(const Vec3& at, double slack) const {
-    const Vector<N> x = vector_of<N>(at), m = vector_of<N>(light_.normal), to_center = minus(center<N>(), x);
+    const Vector<N> x = vector_of<N>(at), m = vector_of<N>(light_.normal),
+                    to_center = light_.is_distant() ? center<N>() : minus(center<N>(), x);
     bool unsure = false;
     const auto sign = [&](const N& v, const N& scale2) {
       if (slack > 0 && !(v * v > scale2 * N(slack * slack))) unsure = true;
@@ -38,7 +39,8 @@ class UmbraOracle {
       sees.push_back(sign(inner(n, to_x), N(inner(n, n) * inner(to_x, to_x))) > 0);
     }
     if (unsure) return Answer::kUnsure;
-    const N mm = inner(m, m), radius2 = N(light_.radius) * N(light_.radius);
+    const N mm = inner(m, m),
+            radius2 = N(light_.radius) * N(light_.radius) * (light_.is_distant() ? mm : N(1));
     for (const Edge& e : mesh_.edges()) {
       const bool left = sees[index(e.left)] != 0, right = sees[index(e.right)] != 0;
       if (left == right) continue;
@@ -68,7 +70,7 @@ class UmbraOracle {
   }
 
   const TriangleMesh& mesh_;
-  DiskLight light_;
+  CircularLight light_;
   std::size_t exact_decisions_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "penumbra/volumes/volumes.h"
+#include "tests/volumes/light_samples.h"
 #include "tests/volumes/random_inputs.h"
 #include "tests/volumes/triangle_tree.h"
 
@@ -15,7 +16,7 @@ namespace penumbra::testing {
 inline const DiskLight kLight{{0, 10, 0}, {0, -1, 0}, 0.8};
 
 /// Classes, silhouettes, penumbra and umbra, and the sheets if asked for.
-inline ShadowVolumes build(const TriangleMesh& mesh, const DiskLight& light, bool sheets = false) {
+inline ShadowVolumes build(const TriangleMesh& mesh, const CircularLight& light, bool sheets = false) {
   VolumeOptions options;
   options.sheets = sheets;
   return build_shadow_volumes(mesh, light, options);
@@ -36,10 +37,10 @@ inline std::map<std::pair<std::uint32_t, std::uint32_t>, int> unmatched(
 }
 
 /// The winding number of the volume's surface around x.
-inline int winding_at(const ShadowMesh& volume, const DiskLight& light, const Vec3& x) {
+inline int winding_at(const ShadowMesh& volume, const CircularLight& light, const Vec3& x) {
   RandomInputs random(1);
   const TriangleTree tree(volume.positions, volume.triangles);
-  return winding_number(tree, x, light.center - light_frame(light).w, 0.1, random);
+  return winding_number(tree, x, unshadowed_point(light, bounds_of(volume.positions), 1.0), 0.1, random);
 }
 
 /// A thin roof: two mixed faces meet in a knife edge under a large light, and no face looks at all of it. The

@@ -21,7 +21,7 @@ namespace {
 constexpr double kLeastDepth = 1e-4;
 // Beyond this ratio of the bound's distance to the body's the cell is the whole half-space in front.
 constexpr double kGreatestScale = 1e7;
-// The polygon is larger than circumscribed by these, relative to the light and to the largest coordinate. So
+// The polygon is larger than circumscribed by these, relative to the light and to the cell's largest coordinate. So
 // containment survives the rounding of its corners and of far points, which is some 2^-52 of the coordinates,
 // seen at the angle of the ray.
 constexpr double kLightMargin = 1e-9, kRoundingMargin = 1e-14;
@@ -38,14 +38,17 @@ constexpr double kNoEdge = 1e-13;
 constexpr std::size_t kFewVertices = 12;
 // Directions in which the outline of a larger body is searched for.
 constexpr int kDirections = 48;
-// Depth of the point that keeps the far end from being flat, relative to the far plane's.
-constexpr double kDome = 1.05;
+// How far beyond the far plane the point lies that keeps the far end from being flat, relative to the cell's height.
+constexpr double kDome = 0.05;
 
 /// What the choice of the far end depends on.
 struct BodyExtent {
-  double least_depth, greatest_depth;
-  double largest_coordinate, greatest_distance;
-  double least_offset;  ///< a lower bound of the distance from the light's axis
+  double least_depth = std::numeric_limits<double>::infinity(), greatest_depth = 0.0;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  ///< heights
+  double width = 0.0;  ///< of the body, from its first point
+  double largest_coordinate = 0.0;
+  double greatest_distance = 0.0;  ///< from the light's center; for a distant light 1, as is depth
+  double least_offset = 0.0;  ///< a lower bound of the distance from the axis of a light that is not distant
 };
 
 /// Distance from the origin to the convex polygon with these corners in order, in the plane. 0 inside.
@@ -66,23 +69,34 @@ double distance_from_origin(std::span<const std::array<double, 2>> corners) {
 BodyExtent extent_of(std::span<const Vec3> body, const ShadowReach& reach) {
   constexpr std::size_t kPolygonCorners =
       4;  // a triangle clipped once; larger bodies are taken to reach the axis
-  BodyExtent e{std::numeric_limits<double>::infinity(), 0.0, largest_component(reach.center), 0.0, 0.0};
+  const bool has_axis = !reach.light.is_distant() && body.size() <= kPolygonCorners;
+  BodyExtent e;
   std::vector<std::array<double, 2>> seen;
   for (const Vec3& p : body) {
-    const Vec3 d = p - reach.center;
-    e.least_depth = std::min(e.least_depth, glm::dot(reach.frame.w, d));
-    e.greatest_depth = std::max(e.greatest_depth, glm::dot(reach.frame.w, d));
+    const Vec3 d = reach.from_center(p);
+    const double depth = reach.depth(p), height = reach.height(p);
+    e.least_depth = std::min(e.least_depth, depth);
+    e.greatest_depth = std::max(e.greatest_depth, depth);
+    e.lowest = std::min(e.lowest, height);
+    e.highest = std::max(e.highest, height);
+    e.width = std::max(e.width, glm::length(p - body.front()));
     e.largest_coordinate = std::max(e.largest_coordinate, largest_component(p));
     e.greatest_distance = std::max(e.greatest_distance, glm::length(d));
-    if (body.size() <= kPolygonCorners)
-      seen.push_back({glm::dot(reach.frame.u, d), glm::dot(reach.frame.v, d)});
+    if (has_axis) seen.push_back({glm::dot(reach.frame.u, d), glm::dot(reach.frame.v, d)});
   }
-  if (body.size() <= kPolygonCorners) e.least_offset = distance_from_origin(seen);
+  if (has_axis) e.least_offset = distance_from_origin(seen);
   return e;
 }
 
+/// Of the plane at which a cell is cut off: beyond the bound, and beyond the body by its own size.
+double far_height_of(const BodyExtent& extent, const ShadowReach& reach) {
+  return std::max(reach.far_height, extent.highest + extent.width);
+}
+
 bool is_deep(const BodyExtent& extent, const ShadowReach& reach) {
-  return extent.least_depth >= kLeastDepth * std::max(reach.far_depth, 2.0 * extent.greatest_depth);
+  const double far_depth = extent.least_depth + (far_height_of(extent, reach) - extent.lowest);
+  return reach.light.is_distant() ||
+         extent.least_depth >= kLeastDepth * std::max(far_depth, 2.0 * extent.greatest_depth);
 }
 
 /// Points of one cell: the body first, then those of its far end.
@@ -91,12 +105,13 @@ struct CellPoints {
   std::size_t body_count;
 };
 
+/// The polygon's corners, from the light's center.
 std::vector<Vec3> light_corners(const ShadowReach& reach, const UnitPolygon& polygon, double inradius) {
-  if (reach.radius == 0.0) return {reach.center};
+  if (reach.light.radius == 0.0) return {Vec3(0.0)};
   std::vector<Vec3> corners;
   corners.reserve(polygon.corners.size());
   for (const auto& [x, y] : polygon.corners) {
-    corners.push_back(reach.center + inradius * (x * reach.frame.u + y * reach.frame.v));
+    corners.push_back(inradius * (x * reach.frame.u + y * reach.frame.v));
   }
   return corners;
 }
@@ -104,21 +119,24 @@ std::vector<Vec3> light_corners(const ShadowReach& reach, const UnitPolygon& pol
 /// Where a vertex of the body sends the light on the far plane: a disk (the polygon is between it and its
 /// circumcircle).
 struct FarDisk {
-  double x, y, scale;  ///< center in the light's frame, and by how much the light grows
+  double x, y,
+      scale;  ///< center along u and v from that of the first vertex, and by how much the light grows
 };
 
 /// Which vertices of a large body can be on the outline of its far end. A support point in each of some
 /// directions gives a polygon inside of the far end's hull; a vertex whose whole far disk is well inside of
 /// that polygon adds nothing.
-std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach& reach, double far_depth,
+std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach& reach, double far_height,
                                    double inradius, double circumradius) {
   if (body.size() <= kFewVertices) return {body.begin(), body.end()};
 
   std::vector<FarDisk> disks;
+  const auto gain_of = [&](const Vec3& k) { return far_height - reach.height(k); };
+  const Vec3 first = gain_of(body.front()) * reach.ray(body.front(), Vec3(0.0));
   for (const Vec3& k : body) {
-    const Vec3 d = k - reach.center;
-    const double s = far_depth / glm::dot(reach.frame.w, d);
-    disks.push_back({s * glm::dot(reach.frame.u, d), s * glm::dot(reach.frame.v, d), s - 1.0});
+    const double gain = gain_of(k);
+    const Vec3 d = (k - body.front()) + (gain * reach.ray(k, Vec3(0.0)) - first);
+    disks.push_back({glm::dot(reach.frame.u, d), glm::dot(reach.frame.v, d), gain / reach.depth(k)});
   }
   std::vector<std::array<double, 2>> inner;
   double size = 0.0;
@@ -155,24 +173,29 @@ std::vector<Vec3> outline_vertices(std::span<const Vec3> body, const ShadowReach
 /// flat: its triangulation then needs no exact arithmetic.
 CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, const UnitPolygon& polygon,
                         const BodyExtent& extent) {
-  const double far_depth = std::max(reach.far_depth, 2.0 * extent.greatest_depth);
-  // Far points are off by a few 2^-53 of their size across the ray; moving them by `margin` in a plane
-  // parallel to the light moves them across the ray by margin · depth / distance.
-  const double margin = kRoundingMargin * (extent.largest_coordinate + reach.radius) *
-                        (1.0 + (extent.greatest_distance + reach.radius) / extent.least_depth);
-  const double inradius = reach.radius * (1.0 + kLightMargin) + margin;
+  const double far_height = far_height_of(extent, reach);
+  const double whole = far_height - extent.lowest, gain = far_height - extent.highest;
+  // A ray runs at most `slant` for each unit of height, so far points are off by a few 2^-53 of `size`. Moving the
+  // light's corner by `margin` moves them by margin · gain / depth in a plane parallel to the light, which is by that
+  // over `slant` across the ray.
+  const double slant = 1.0 + (extent.greatest_distance + reach.light.radius) / extent.least_depth;
+  const double size = extent.largest_coordinate + whole * slant;
+  const double margin = kRoundingMargin * size * slant * (extent.greatest_depth / gain);
+  const double inradius = reach.light.radius * (1.0 + kLightMargin) + margin;
   const std::vector<Vec3> corners = light_corners(reach, polygon, inradius);
   const std::vector<Vec3> outline =
-      outline_vertices(body, reach, far_depth, inradius, inradius * polygon.circumradius);
+      outline_vertices(body, reach, far_height, inradius, inradius * polygon.circumradius);
   CellPoints cell{{body.begin(), body.end()}, body.size()};
   cell.points.reserve(body.size() + outline.size() * corners.size() + 1);
   for (const Vec3& k : outline) {
-    const double s = far_depth / reach.depth(k);
-    for (const Vec3& p : corners) cell.points.push_back(p + s * (k - p));
+    const double gain_of_k = far_height - reach.height(k);
+    for (const Vec3& q : corners) cell.points.push_back(k + gain_of_k * reach.ray(k, q));
   }
   Vec3 middle(0.0);
-  for (const Vec3& k : body) middle += (k - reach.center) / static_cast<double>(body.size());
-  cell.points.push_back(reach.center + (kDome * far_depth / glm::dot(reach.frame.w, middle)) * middle);
+  for (const Vec3& k : body) middle += (k - body.front()) / static_cast<double>(body.size());
+  middle += body.front();
+  const double dome = far_height - reach.height(middle) + kDome * whole;
+  cell.points.push_back(middle + dome * reach.ray(middle, Vec3(0.0)));
   return cell;
 }
 
@@ -180,18 +203,19 @@ CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, co
 /// light's plane are not moved across their direction by a wider polygon. Nothing where S would be too large.
 std::optional<CellPoints> cut_by_distance(std::span<const Vec3> body, const ShadowReach& reach,
                                           const UnitPolygon& polygon, const BodyExtent& extent) {
-  const double thickness = 100.0 * kRoundingMargin * (extent.largest_coordinate + reach.radius);
-  const double inradius = reach.radius * (1.0 + kLightMargin) + thickness;
+  const double thickness =
+      100.0 * kRoundingMargin * (extent.largest_coordinate + extent.greatest_distance + reach.light.radius);
+  const double inradius = reach.light.radius * (1.0 + kLightMargin) + thickness;
   const double offset = std::max(0.0, extent.least_offset - inradius * polygon.circumradius);
   const double nearest = std::hypot(std::max(0.0, extent.least_depth), offset) - 2.0 * thickness;
   const double scale = std::max(2.0, (reach.distance() + inradius * polygon.circumradius) / nearest);
   if (!(nearest > 0.0) || !(scale <= kGreatestScale)) return std::nullopt;
 
   CellPoints cell{{body.begin(), body.end()}, body.size()};
-  for (const Vec3& p : light_corners(reach, polygon, inradius)) {
+  for (const Vec3& corner : light_corners(reach, polygon, inradius)) {
     for (const double side : {-thickness, thickness}) {
-      const Vec3 q = p + side * reach.frame.w;
-      for (const Vec3& k : body) cell.points.push_back(q + scale * (k - q));
+      const Vec3 q = corner + side * reach.frame.w;
+      for (const Vec3& k : body) cell.points.push_back(k + (scale - 1.0) * (reach.from_center(k) - q));
     }
   }
   return cell;
@@ -199,13 +223,13 @@ std::optional<CellPoints> cut_by_distance(std::span<const Vec3> body, const Shad
 
 /// The half-space in front of the light as far as the bound: for bodies that (almost) touch the disk.
 CellPoints half_space(const ShadowReach& reach, const BodyExtent& extent) {
-  const double far = std::max({reach.distance(), extent.greatest_distance, reach.radius}) * 2.0;
-  const double behind = -1e-12 * (far + largest_component(reach.center));
+  const double far = std::max({reach.distance(), extent.greatest_distance, reach.light.radius}) * 2.0;
+  const double behind = -1e-12 * (far + largest_component(reach.light.center));
   CellPoints cell{{}, 0};
   for (const double z : {behind, far}) {
     for (const double y : {-far, far}) {
       for (const double x : {-far, far}) {
-        cell.points.push_back(reach.center + x * reach.frame.u + y * reach.frame.v + z * reach.frame.w);
+        cell.points.push_back(reach.light.center + x * reach.frame.u + y * reach.frame.v + z * reach.frame.w);
       }
     }
   }

@@ -10,7 +10,7 @@ namespace penumbra::detail {
 
 namespace {
 
-constexpr double kDefaultBound = 10.0;  // times the sphere around caster and light
+constexpr double kDefaultBound = 10.0;  // times the sphere around caster and near light
 constexpr double kBeyond = 1.0 + 1e-6;  // far ends clear the bound by this factor
 
 }  // namespace
@@ -26,25 +26,27 @@ void require_valid(const ExtrudeOptions& options) {
 }
 
 double ShadowReach::distance() const {
-  return (glm::length(bound_center - center) + bound_radius + radius) * kBeyond;
+  return (glm::length(bound_center - light.center) + bound_radius + light.radius) * kBeyond;
 }
 
-ShadowReach shadow_reach(const TriangleMesh& mesh, const DiskLight& light, const ExtrudeOptions& options) {
+ShadowReach shadow_reach(const TriangleMesh& mesh, const CircularLight& light,
+                         const ExtrudeOptions& options) {
   require_valid(options);
-  ShadowReach reach{.center = light.center,
+  ShadowReach reach{.light = light,
                     .frame = light_frame(light),
-                    .radius = light.radius,
                     .bound_center = options.bound_center,
                     .bound_radius = options.bound_radius,
-                    .far_depth = 0.0};
+                    .far_height = 0.0};
   if (options.bound_radius == 0.0) {
     Bounds bounds = mesh.bounds();
-    bounds.add(light.center - Vec3(light.radius));
-    bounds.add(light.center + Vec3(light.radius));
+    if (!light.is_distant()) {
+      bounds.add(light.center - Vec3(light.radius));
+      bounds.add(light.center + Vec3(light.radius));
+    }
     reach.bound_center = bounds.center();
     reach.bound_radius = kDefaultBound * bounds.radius();
   }
-  reach.far_depth = reach.depth(reach.bound_center) + reach.bound_radius * kBeyond;
+  reach.far_height = reach.bound_radius * kBeyond;
   return reach;
 }
 

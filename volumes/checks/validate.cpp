@@ -140,7 +140,8 @@ class SurfaceChecker {
 /// Points are tried inside of the bound alone: volumes end differently beyond it.
 class ContainmentChecker {
  public:
-  ContainmentChecker(const DiskLight& light, const detail::ShadowReach& reach, const ValidateOptions& options)
+  ContainmentChecker(const CircularLight& light, const detail::ShadowReach& reach,
+                     const ValidateOptions& options)
       : light_(light), reach_(reach), options_(options), random_(options.seed) {}
 
   ContainmentFindings run(const ShadowMesh& inner, const ShadowMesh& outer) {
@@ -165,7 +166,7 @@ class ContainmentChecker {
            side_of_light_plane(x, light_) == Sign::kPositive;
   }
 
-  DiskLight light_;
+  CircularLight light_;
   detail::ShadowReach reach_;
   ValidateOptions options_;
   std::mt19937_64 random_;
@@ -183,10 +184,10 @@ bool VolumeFindings::good() const {
          umbra_in_penumbra.outside == 0;
 }
 
-VolumeFindings validate(const TriangleMesh& mesh, const DiskLight& light, const ShadowMesh& umbra,
+VolumeFindings validate(const TriangleMesh& mesh, const CircularLight& light, const ShadowMesh& umbra,
                         const ShadowMesh& penumbra, const ExtrudeOptions& extrude,
                         const ValidateOptions& options) {
-  DiskLight center = light;
+  CircularLight center = light;
   center.radius = 0.0;
   const ShadowMesh hard = extrude_penumbra(mesh, center, classify_faces(mesh, center), extrude);
   ContainmentChecker containment(light, detail::shadow_reach(mesh, light, extrude), options);

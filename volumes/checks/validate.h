@@ -73,7 +73,7 @@ struct VolumeFindings {
 
 /// Checks the volumes of one caster, as build_shadow_volumes makes them with these options. Expected cost O(n
 /// log n) for n triangles, and O(points · n).
-VolumeFindings validate(const TriangleMesh& mesh, const DiskLight& light, const ShadowMesh& umbra,
+VolumeFindings validate(const TriangleMesh& mesh, const CircularLight& light, const ShadowMesh& umbra,
                         const ShadowMesh& penumbra, const ExtrudeOptions& extrude,
                         const ValidateOptions& options = {});
 

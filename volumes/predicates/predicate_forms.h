@@ -2,7 +2,11 @@
 //
 // An `Arithmetic` supplies `value(x)`, `difference(x, y)` (of doubles, x - y) and `sign(form)`, which is
 // empty where that arithmetic cannot tell. Notation as in predicates.h: E = b - a the edge, N = E × (q - a)
-// the plane of edge and point, w = center - a, m the light's normal of any length, r its radius.
+// the plane of edge and point, w = center - weight·a, m the light's normal of any length, r its radius.
+//
+// A distant light (weight 0) has w = -m, and the way to a point of its rim is, up to length, -m + r|m|e with a unit vector
+// e perpendicular to m. So its forms are those of a disk about w with the radius r|m|. Where a form has the factor m·m
+// throughout then, it is divided out.
 #pragma once
 
 #include <array>
@@ -46,6 +50,12 @@ auto differences(const Vec3& p, const Vec3& q) {
                    Arithmetic::difference(p.z, q.z)};
 }
 
+/// w. The product is exact, since the weight is 0 or 1.
+template <class Arithmetic>
+auto way_to_center(const CircularLight& light, const Vec3& a) {
+  return differences<Arithmetic>(light.center, light.weight * a);
+}
+
 template <class Arithmetic>
 std::optional<Sign> orient3d_in(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const auto normal = cross(differences<Arithmetic>(b, a), differences<Arithmetic>(c, a));
@@ -53,7 +63,8 @@ std::optional<Sign> orient3d_in(const Vec3& a, const Vec3& b, const Vec3& c, con
 }
 
 template <class Arithmetic>
-std::optional<Sign> side_of_light_plane_in(const Vec3& p, const DiskLight& light) {
+std::optional<Sign> side_of_light_plane_in(const Vec3& p, const CircularLight& light) {
+  if (light.is_distant()) return Sign::kPositive;
   return Arithmetic::sign(dot(values<Arithmetic>(light.normal), differences<Arithmetic>(p, light.center)));
 }
 
@@ -72,25 +83,28 @@ std::optional<bool> collinear_in(const Vec3& a, const Vec3& b, const Vec3& c) {
 /// How the disk lies to the plane of (a, b, c).
 template <class Center, class Tangency>
 struct DiskToPlane {
-  Center center;      ///< d = N·(center - a)
-  Tangency tangency;  ///< d²(m·m) - r²|N × m|²: positive iff the plane misses the closed disk, zero iff it
-                      ///< touches the rim
+  /// d = N·w
+  Center center;
+  /// d²(m·m) - r²|N × m|², of a distant light d² - r²|N × m|²: positive iff the plane misses the closed disk, zero
+  /// iff it touches the rim.
+  Tangency tangency;
 };
 
 template <class Arithmetic>
-auto disk_to_plane(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light) {
+auto disk_to_plane(const Vec3& a, const Vec3& b, const Vec3& c, const CircularLight& light) {
   const auto normal = cross(differences<Arithmetic>(b, a), differences<Arithmetic>(c, a));
   const auto m = values<Arithmetic>(light.normal);
-  const auto center = dot(normal, differences<Arithmetic>(light.center, a));
+  const auto measure = light.is_distant() ? values<Arithmetic>(Vec3(1.0, 0.0, 0.0)) : m;
+  const auto center = dot(normal, way_to_center<Arithmetic>(light, a));
   const auto across = cross(normal, m);
-  const auto tangency =
-      squared(center) * dot(m, m) - squared(Arithmetic::value(light.radius)) * dot(across, across);
+  const auto tangency = squared(center) * dot(measure, measure) -
+                        squared(Arithmetic::value(light.radius)) * dot(across, across);
   return DiskToPlane<std::decay_t<decltype(center)>, std::decay_t<decltype(tangency)>>{center, tangency};
 }
 
 template <class Arithmetic>
 std::optional<FaceClass> classify_face_in(const Vec3& a, const Vec3& b, const Vec3& c,
-                                          const DiskLight& light) {
+                                          const CircularLight& light) {
   const auto forms = disk_to_plane<Arithmetic>(a, b, c, light);
   const std::optional<Sign> tangency = Arithmetic::sign(forms.tangency);
   if (!tangency) return std::nullopt;
@@ -105,14 +119,17 @@ std::optional<FaceClass> classify_face_in(const Vec3& a, const Vec3& b, const Ve
 /// center is (m·w)E - (m·E)w = m × (E × w). So |m × (E × w)|² - r²(m·E)² has the wanted sign where m·E ≠ 0;
 /// where m·E = 0 ≠ m·w it is positive, as it should; where both vanish the line lies in the plane and |E ×
 /// w|² - r²|E|² decides.
+/// To a distant light the line goes in the direction E, whatever a is. With w = -m it is |m × (E × w)|² = (m·m)|E × w|²,
+/// so |E × w|² - r²(m·E)² decides. It is positive where m·E = 0.
 template <class Arithmetic>
-std::optional<Sign> line_outside_disk_in(const Vec3& a, const Vec3& b, const DiskLight& light) {
+std::optional<Sign> line_outside_disk_in(const Vec3& a, const Vec3& b, const CircularLight& light) {
   const auto edge = differences<Arithmetic>(b, a);
-  const auto moment = cross(edge, differences<Arithmetic>(light.center, a));
+  const auto moment = cross(edge, way_to_center<Arithmetic>(light, a));
   const auto m = values<Arithmetic>(light.normal);
   const auto slope = dot(m, edge);
-  const auto offset = cross(m, moment);
   const auto radius2 = squared(Arithmetic::value(light.radius));
+  if (light.is_distant()) return Arithmetic::sign(dot(moment, moment) - radius2 * squared(slope));
+  const auto offset = cross(m, moment);
   const std::optional<Sign> crossing = Arithmetic::sign(dot(offset, offset) - radius2 * squared(slope));
   if (!crossing || *crossing != Sign::kZero) return crossing;
   const std::optional<Sign> slope_sign = Arithmetic::sign(slope);
@@ -126,31 +143,35 @@ std::optional<Sign> line_outside_disk_in(const Vec3& a, const Vec3& b, const Dis
 ///   (E×w · E×m)(N · E×m) + (E·m)²(E×w · N),  N = E × (q - a).
 /// (In coordinates u1 along m - (m·e)e and u2: the ellipse has semi-axes r|e·m| and r, the polar's normal is
 /// (w1, (e·m)² w2).)
+/// Of a distant light, with w = -m, it is (m·m)(E·E)(E×w · N).
 template <class Arithmetic>
-auto wedge_form(const Vec3& a, const Vec3& b, const Vec3& q, const DiskLight& light) {
+std::optional<Sign> side_of_polar_in(const Vec3& a, const Vec3& b, const Vec3& q,
+                                     const CircularLight& light) {
   const auto edge = differences<Arithmetic>(b, a);
   const auto m = values<Arithmetic>(light.normal);
-  const auto to_center = cross(edge, differences<Arithmetic>(light.center, a));
+  const auto to_center = cross(edge, way_to_center<Arithmetic>(light, a));
   const auto to_point = cross(edge, differences<Arithmetic>(q, a));
+  if (light.is_distant()) return Arithmetic::sign(dot(to_center, to_point));
   const auto edge_m = cross(edge, m);
-  return dot(to_center, edge_m) * dot(to_point, edge_m) + squared(dot(edge, m)) * dot(to_center, to_point);
+  return Arithmetic::sign(dot(to_center, edge_m) * dot(to_point, edge_m) +
+                          squared(dot(edge, m)) * dot(to_center, to_point));
 }
 
 /// The first tangent bounds the wedge clockwise, seen against a → b; its disk side is counter-clockwise of
 /// it.
-///  - The plane (a, b, q) misses the disk: q is in a side wedge. N·(center - a) > 0 says that it is the
+///  - The plane (a, b, q) misses the disk: q is in a side wedge. N·w > 0 says that it is the
 ///    clockwise one: beyond the first tangent, on the disk's side of the second.
 ///  - It meets the open disk: q is in the wedge (positive for both) or in its mirror image (negative for
 ///    both).
 ///  - It touches: q is on the tangent that those two signs name.
 template <class Arithmetic>
 std::optional<std::array<Sign, 2>> sides_of_tangent_planes_in(const Vec3& a, const Vec3& b, const Vec3& q,
-                                                              const DiskLight& light) {
+                                                              const CircularLight& light) {
   using Sides = std::array<Sign, 2>;  // of kFirst, of kSecond
   const auto forms = disk_to_plane<Arithmetic>(a, b, q, light);
   const std::optional<Sign> tangency = Arithmetic::sign(forms.tangency);
   if (!tangency) return std::nullopt;
-  const auto wedge = [&] { return Arithmetic::sign(wedge_form<Arithmetic>(a, b, q, light)); };
+  const auto wedge = [&] { return side_of_polar_in<Arithmetic>(a, b, q, light); };
   if (*tangency == Sign::kNegative) {
     const std::optional<Sign> side = wedge();
     return side ? std::optional(Sides{*side, *side}) : std::nullopt;

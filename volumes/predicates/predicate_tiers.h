@@ -11,34 +11,36 @@ namespace penumbra::detail {
 
 /// Plain double with a derived bound on its error (volumes/predicates/filtered.h).
 namespace filter {
-std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light);
+std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c,
+                                       const CircularLight& light);
 std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-std::optional<Sign> side_of_light_plane(const Vec3& p, const DiskLight& light);
-std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
+std::optional<Sign> side_of_light_plane(const Vec3& p, const CircularLight& light);
+std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const CircularLight& light);
 std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
-                                                           const DiskLight& light);
+                                                           const CircularLight& light);
 std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace filter
 
 /// Interval arithmetic on doubles (CGAL::Interval_nt).
 namespace interval {
-std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light);
+std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c,
+                                       const CircularLight& light);
 std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-std::optional<Sign> side_of_light_plane(const Vec3& p, const DiskLight& light);
-std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
+std::optional<Sign> side_of_light_plane(const Vec3& p, const CircularLight& light);
+std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const CircularLight& light);
 std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
-                                                           const DiskLight& light);
+                                                           const CircularLight& light);
 std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace interval
 
 /// Exact arithmetic on the doubles as given.
 namespace exact {
-FaceClass classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light);
+FaceClass classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const CircularLight& light);
 Sign orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-Sign side_of_light_plane(const Vec3& p, const DiskLight& light);
-Sign line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light);
+Sign side_of_light_plane(const Vec3& p, const CircularLight& light);
+Sign line_outside_disk(const Vec3& a, const Vec3& b, const CircularLight& light);
 std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
-                                            const DiskLight& light);
+                                            const CircularLight& light);
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 }  // namespace exact
 

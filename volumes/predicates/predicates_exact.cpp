@@ -45,7 +45,8 @@ struct ExactArithmetic {
 
 namespace interval {
 
-std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light) {
+std::optional<FaceClass> classify_face(const Vec3& a, const Vec3& b, const Vec3& c,
+                                       const CircularLight& light) {
   const RoundUpwards protect;
   return classify_face_in<IntervalArithmetic>(a, b, c, light);
 }
@@ -55,18 +56,18 @@ std::optional<Sign> orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const 
   return orient3d_in<IntervalArithmetic>(a, b, c, d);
 }
 
-std::optional<Sign> side_of_light_plane(const Vec3& p, const DiskLight& light) {
+std::optional<Sign> side_of_light_plane(const Vec3& p, const CircularLight& light) {
   const RoundUpwards protect;
   return side_of_light_plane_in<IntervalArithmetic>(p, light);
 }
 
-std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light) {
+std::optional<Sign> line_outside_disk(const Vec3& a, const Vec3& b, const CircularLight& light) {
   const RoundUpwards protect;
   return line_outside_disk_in<IntervalArithmetic>(a, b, light);
 }
 
 std::optional<std::array<Sign, 2>> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
-                                                           const DiskLight& light) {
+                                                           const CircularLight& light) {
   const RoundUpwards protect;
   return sides_of_tangent_planes_in<IntervalArithmetic>(a, b, q, light);
 }
@@ -80,7 +81,7 @@ std::optional<bool> collinear(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 namespace exact {
 
-FaceClass classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const DiskLight& light) {
+FaceClass classify_face(const Vec3& a, const Vec3& b, const Vec3& c, const CircularLight& light) {
   return *classify_face_in<ExactArithmetic>(a, b, c, light);
 }
 
@@ -88,16 +89,16 @@ Sign orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return *orient3d_in<ExactArithmetic>(a, b, c, d);
 }
 
-Sign side_of_light_plane(const Vec3& p, const DiskLight& light) {
+Sign side_of_light_plane(const Vec3& p, const CircularLight& light) {
   return *side_of_light_plane_in<ExactArithmetic>(p, light);
 }
 
-Sign line_outside_disk(const Vec3& a, const Vec3& b, const DiskLight& light) {
+Sign line_outside_disk(const Vec3& a, const Vec3& b, const CircularLight& light) {
   return *line_outside_disk_in<ExactArithmetic>(a, b, light);
 }
 
 std::array<Sign, 2> sides_of_tangent_planes(const Vec3& a, const Vec3& b, const Vec3& q,
-                                            const DiskLight& light) {
+                                            const CircularLight& light) {
   return *sides_of_tangent_planes_in<ExactArithmetic>(a, b, q, light);
 }
 

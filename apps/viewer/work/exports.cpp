@@ -17,7 +17,7 @@ constexpr int kPictures = 24;  // of a sequence
 
 std::string export_volumes(const std::filesystem::path& folder, const State& state) {
   const Scene scene = current_scene(state);
-  const DiskLight& light = require_disk(scene.lights[state.selected].shape, "exporting volumes");
+  const CircularLight light = require_circular(scene.lights[state.selected].shape, "exporting volumes");
   VolumeOptions options{.sheets = true, .extrude = apps::extrude_options_for(scene, light)};
   std::vector<ShadowMesh> sheets, penumbra, umbra;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {

@@ -13,6 +13,7 @@
 #include "penumbra/volumes/convex_umbra.h"
 #include "penumbra/volumes/volumes.h"
 #include "tests/volumes/containment_check.h"
+#include "tests/volumes/light_samples.h"
 #include "tests/volumes/triangle_tree.h"
 
 namespace penumbra {
@@ -27,18 +28,18 @@ int point_count() {
 
 struct Case {
   TriangleMesh mesh;
-  DiskLight light;
+  CircularLight light = DiskLight{};
   Bounds box;
   ShadowMesh umbra, penumbra;
 };
 
-Case make_case(const TriangleMesh& mesh) {
+Case make_case(const TriangleMesh& mesh, const CircularLight& light) {
   Case c;
   std::vector<Vec3> positions;
   for (const Vec3& p : mesh.positions())
     positions.push_back((p - mesh.bounds().center()) / mesh.bounds().radius());
   c.mesh = TriangleMesh::build(positions, mesh.triangles());
-  c.light = {{0.3, 3.0, 0.2}, {0.05, -1.0, 0.1}, 0.3};
+  c.light = light;
   c.box.add(Vec3(-2.0, -2.5, -2.0));
   c.box.add(Vec3(2.0, 3.0, 2.0));
   ExtrudeOptions options;
@@ -58,6 +59,7 @@ class UmbraCheck {
         seed_(seed),
         random_(seed),
         frame_(light_frame(c.light)),
+        outside_(testing::unshadowed_point(c.light, c.mesh.bounds(), 1.0)),
         caster_(c.mesh.positions(), c.mesh.triangles()),
         umbra_(c.umbra.positions, c.umbra.triangles) {}
 
@@ -67,7 +69,7 @@ class UmbraCheck {
     long inside = 0, wrong = 0;
     for (int i = 0; i < count && wrong < 3; ++i) {
       const Vec3 x = i % 2 ? near_surface() : anywhere();
-      if (testing::winding_number(umbra_, x, case_.light.center - frame_.w, 0.1, random_) < 1) continue;
+      if (testing::winding_number(umbra_, x, outside_, 0.1, random_) < 1) continue;
       ++inside;
       if (!sees_light(x)) continue;
       ++wrong;
@@ -103,8 +105,7 @@ class UmbraCheck {
   bool sees_light(const Vec3& x) const {
     constexpr int kRays = 4096;
     for (int s = 0; s < kRays; ++s) {
-      const double angle = 2.399963229728653 * s, r = case_.light.radius * std::sqrt((s + 0.5) / kRays);
-      const Vec3 p = case_.light.center + r * (std::cos(angle) * frame_.u + std::sin(angle) * frame_.v);
+      const Vec3 p = testing::end_towards_light(case_.light, frame_, x, s, kRays, 2.0 * case_.box.radius());
       const bool blocked = caster_.find(
           [&](const Bounds& box) { return testing::segment_meets_box(x, p - x, box); },
           [&](std::uint32_t i) {
@@ -120,6 +121,7 @@ class UmbraCheck {
   std::uint64_t seed_;
   testing::RandomInputs random_;
   LightFrame frame_;
+  Vec3 outside_;
   testing::TriangleTree caster_, umbra_;
 };
 
@@ -152,14 +154,12 @@ std::vector<std::filesystem::path> closed_meshes() {
   return files;
 }
 
-class EveryClosedMesh : public ::testing::TestWithParam<std::filesystem::path> {};
-
-TEST_P(EveryClosedMesh, NoFalseUmbraAndNoMissedPenumbra) {
-  const Case c = make_case(read_mesh(GetParam()));
+void expect_no_wrong_point(const std::filesystem::path& file, const std::string& name,
+                           const CircularLight& light, int points) {
+  const Case c = make_case(read_mesh(file), light);
   std::vector<std::future<Figures>> parts;
   for (int k = 0; k < kParts; ++k)
-    parts.push_back(
-        std::async(std::launch::async, check_part, std::cref(c), point_count() / kParts, kSeed + k));
+    parts.push_back(std::async(std::launch::async, check_part, std::cref(c), points / kParts, kSeed + k));
   Figures all;
   for (auto& part : parts) {
     const Figures figures = part.get();
@@ -167,13 +167,28 @@ TEST_P(EveryClosedMesh, NoFalseUmbraAndNoMissedPenumbra) {
     all.in_umbra += figures.in_umbra;
     all.false_umbra += figures.false_umbra;
   }
-  std::cout << "  " << GetParam().stem().string() << ": " << c.mesh.triangles().size() << " faces, "
-            << all.penumbra.text() << "; of " << point_count() / 10 << " points in the "
+  std::cout << "  " << file.stem().string() << ", " << name << ": " << c.mesh.triangles().size() << " faces, "
+            << all.penumbra.text() << "; of " << points / 10 << " points in the "
             << name_of(c.umbra.guarantee) << " umbra " << all.in_umbra << ", false " << all.false_umbra
             << "\n";
   EXPECT_EQ(all.penumbra.outside, 0);
   EXPECT_EQ(all.false_umbra, 0);
-  EXPECT_GT(all.penumbra.shaded(), point_count() / 100);
+  EXPECT_GT(all.penumbra.shaded(), points / 100);
+}
+
+class EveryClosedMesh : public ::testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(EveryClosedMesh, NoFalseUmbraAndNoMissedPenumbra) {
+  expect_no_wrong_point(GetParam(), "disk", DiskLight{{0.3, 3.0, 0.2}, {0.05, -1.0, 0.1}, 0.3},
+                        point_count());
+}
+
+/// The sun, a sun as large as a hand at arm's length and low, and a great part of the sky.
+TEST_P(EveryClosedMesh, NoFalseUmbraAndNoMissedPenumbraUnderSuns) {
+  const int points = std::getenv("PENUMBRA_LONG") ? 100'000 : 10'000;
+  expect_no_wrong_point(GetParam(), "sun", DistantLight{{0.05, -1.0, 0.1}, 0.53}, points);
+  expect_no_wrong_point(GetParam(), "low sun", DistantLight{{3.0, -1.0, -1.5}, 10.0}, points);
+  expect_no_wrong_point(GetParam(), "wide sun", DistantLight{{-0.2, -0.9, 0.3}, 60.0}, points);
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, EveryClosedMesh, ::testing::ValuesIn(closed_meshes()), [](const auto& file) {

@@ -1,4 +1,4 @@
-// Twenty lights about a mesh, most of them degenerate for it on purpose.
+// Twenty-six lights about a mesh, most of them degenerate for it on purpose.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -12,7 +12,7 @@ namespace penumbra::testing {
 
 struct Pose {
   std::string name;
-  DiskLight light;
+  CircularLight light = DiskLight{};
   double scale = 1.0;  ///< of the mesh and of its light
   Vec3 offset{0.0};    ///< then added to both
 };
@@ -28,6 +28,7 @@ inline std::vector<Pose> light_poses(const TriangleMesh& mesh) {
   // The products in normal·along cancel exactly.
   const Vec3 across = along.x != 0.0 || along.y != 0.0 ? Vec3(-along.y, along.x, 0) : Vec3(1, 0, 0);
   const DiskLight above{c + Vec3(0.1, 3, 0.2) * size, down, 0.2 * size};
+  const Vec3 to_third = d - a;
   const auto with_radius = [&](double radius) { return DiskLight{above.center, down, radius}; };
   return {
       {"above", above},
@@ -50,6 +51,12 @@ inline std::vector<Pose> light_poses(const TriangleMesh& mesh) {
       {"the light 1e7 sizes away", {c + Vec3(0, 1e7, 0) * size, down, size}},
       {"all 1e7 from the origin", above, 1.0, Vec3(1e7, -1e7, 1e7)},
       {"all 1e-9 as large", above, 1e-9},
+      {"a sun", DistantLight{{0.1, -1.0, 0.2}, 0.53}},
+      {"a sun of angle 0 along an edge", DistantLight{along, 0.0}},
+      {"a sun along an edge, in a face's plane", DistantLight{along, 30.0}},
+      {"a sun in a face's plane, of a tiny direction", DistantLight{-1e-40 * (along + to_third), 1.0}},
+      {"half the sky, all 1e-9 as large", DistantLight{down, 170.0}, 1e-9},
+      {"a sun, all 1e7 from the origin", DistantLight{{-3.0, -1.0, 0.5}, 0.53}, 1.0, Vec3(1e7, -1e7, 1e7)},
   };
 }
 

@@ -1,4 +1,4 @@
-// Every mesh of data/meshes and data/regressions under twenty lights, degenerate ones among them: either a
+// Every mesh of data/meshes and data/regressions under twenty-six lights, degenerate ones among them: either a
 // named error, or volumes that are closed and finite, silhouettes that balance, and neither a point in shadow
 // outside of the penumbra volume nor one inside of the umbra volume that sees light. Large meshes are given
 // only some of the lights, chosen by their name; PENUMBRA_LONG=1 in the environment: all.
@@ -15,6 +15,7 @@
 #include "penumbra/mesh/io/polygon_soup.h"
 #include "tests/volumes/checks/soundness.h"
 #include "tests/volumes/convex_pieces.h"
+#include "tests/volumes/light_samples.h"
 #include "tests/volumes/shadow_oracle.h"
 #include "tests/volumes/triangle_tree.h"
 
@@ -27,13 +28,11 @@ constexpr std::uint64_t kSeed = 20;
 class PoseCheck {
  public:
   PoseCheck(const TriangleMesh& mesh, const testing::Pose& pose)
-      : mesh_(moved(mesh, pose)),
-        light_{pose.scale * pose.light.center + pose.offset, pose.light.normal,
-               pose.scale * pose.light.radius},
-        box_(mesh_.bounds()) {
+      : mesh_(moved(mesh, pose)), light_(moved(pose.light, pose)), box_(mesh_.bounds()) {
     const double size = box_.radius();
     const Vec3 margin(size);
-    if (glm::length(light_.center - box_.center()) < 10.0 * size) box_.add(light_.center);
+    if (!light_.is_distant() && glm::length(light_.center - box_.center()) < 10.0 * size)
+      box_.add(light_.center);
     box_.add(box_.low - margin);
     box_.add(box_.high + margin);
   }
@@ -73,6 +72,12 @@ class PoseCheck {
     for (Vec3& p : positions) p = pose.scale * p + pose.offset;
     return TriangleMesh::build(positions, mesh.triangles());
   }
+  static CircularLight moved(CircularLight light, const testing::Pose& pose) {
+    if (light.is_distant()) return light;
+    light.center = pose.scale * light.center + pose.offset;
+    light.radius *= pose.scale;
+    return light;
+  }
 
   Vec3 anywhere() {
     Vec3 x;
@@ -97,14 +102,13 @@ class PoseCheck {
   }
 
   bool is_shaded(testing::ShadowOracle& oracle, const testing::TriangleTree& caster, const Vec3& x) const {
-    return light_.radius > 0.0 ? oracle.is_partly_hidden(x)
-                               : blocked(caster, x, light_.center).value_or(false);
+    return light_.radius > 0.0 ? oracle.is_partly_hidden(x) : blocked(caster, x, end(x, 0)).value_or(false);
   }
 
   int winding(const testing::TriangleTree& volume, const Vec3& x) {
     const double size = mesh_.bounds().radius();
-    return testing::winding_number(volume, x, light_.center - size * light_frame(light_).w, 0.1 * size,
-                                   random_);
+    return testing::winding_number(volume, x, testing::unshadowed_point(light_, mesh_.bounds(), size),
+                                   0.1 * size, random_);
   }
 
   /// Nothing where the segment only touches an edge or a corner.
@@ -122,18 +126,20 @@ class PoseCheck {
   }
 
   bool is_dark(const testing::TriangleTree& caster, const Vec3& x) const {
-    constexpr int kRays = 64;
-    const LightFrame frame = light_frame(light_);
-    for (int s = 0; s < kRays; ++s) {
-      const double angle = 2.399963229728653 * s, r = light_.radius * std::sqrt((s + 0.5) / kRays);
-      const Vec3 p = light_.center + r * (std::cos(angle) * frame.u + std::sin(angle) * frame.v);
-      if (!blocked(caster, x, p).value_or(true)) return false;
-    }
+    for (int k = 0; k < kRays; ++k)
+      if (!blocked(caster, x, end(x, k)).value_or(true)) return false;
     return true;
   }
 
+  /// Of the k-th ray from x.
+  Vec3 end(const Vec3& x, int k) const {
+    return testing::end_towards_light(light_, light_frame(light_), x, k, kRays, 3.0 * box_.radius());
+  }
+
+  static constexpr int kRays = 64;
+
   TriangleMesh mesh_;
-  DiskLight light_;
+  CircularLight light_;
   Bounds box_;
   testing::RandomInputs random_{kSeed};
   int inside_ = 0, outside_ = 0, dark_ = 0;
@@ -153,7 +159,7 @@ std::vector<std::filesystem::path> all_meshes() {
 
 class EveryMesh : public ::testing::TestWithParam<std::filesystem::path> {};
 
-TEST_P(EveryMesh, UnderTwentyLights) {
+TEST_P(EveryMesh, UnderTwentySixLights) {
   constexpr std::size_t kLarge = 5'000, kFamilies = 5;
   TriangleMesh mesh;
   try {
@@ -166,7 +172,7 @@ TEST_P(EveryMesh, UnderTwentyLights) {
   // The oracle goes to rationals wherever doubles leave doubt: for large meshes, seconds a point.
   const int points = !large ? 200 : std::clamp(static_cast<int>(100'000 / mesh.triangles().size()), 4, 100);
   const std::vector<testing::Pose> poses = testing::light_poses(mesh);
-  ASSERT_EQ(poses.size(), 20u);
+  ASSERT_EQ(poses.size(), 26u);
   int checked = 0, refused = 0, inside = 0, outside = 0, dark = 0;
   const std::size_t step = all ? 1 : 2 * kFamilies;
   const std::size_t first = all ? 0 : GetParam().stem().string().size() % kFamilies;

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "penumbra/volumes/volumes.h"
+#include "tests/volumes/light_samples.h"
 
 namespace penumbra::testing {
 
@@ -51,10 +52,9 @@ inline ::testing::AssertionResult is_balanced(const TriangleMesh& mesh, const st
 }
 
 /// Builds everything and asserts (fatally) that it is sound.
-inline void expect_sound(const TriangleMesh& mesh, const DiskLight& light, ShadowVolumes& v,
+inline void expect_sound(const TriangleMesh& mesh, const CircularLight& light, ShadowVolumes& v,
                          const ExtrudeOptions& extrude = {}) {
-  SCOPED_TRACE(::testing::Message() << "light at (" << light.center.x << ", " << light.center.y << ", "
-                                    << light.center.z << "), radius " << light.radius);
+  SCOPED_TRACE(text_of(light));
   VolumeOptions options;
   options.sheets = true;
   options.extrude = extrude;
