@@ -204,7 +204,7 @@ void SceneComparison::State::see(const Image& image) {
     std::vector<std::uint32_t> seen;
     for (std::uint32_t i = 0; i < surface_.size(); ++i)
       if (surface_.hit(i) && (!judged_.object || *judged_.object == surface_.object[i])) seen.push_back(i);
-    chosen_ = some_of(std::move(seen), options_.oracle_pixels);
+    chosen_ = options_.pixels.empty() ? some_of(std::move(seen), options_.oracle_pixels) : options_.pixels;
   } else {
     rays_.emplace(scene_, options_.threads);
     surface_ = make_surface_buffer(scene_, *rays_, image.width, image.height);

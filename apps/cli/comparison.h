@@ -44,6 +44,8 @@ struct TraceOptions {
   int threads = 0;
   /// By rays in double without offset (judge.h) in place of Embree's, at so many pixels chosen by chance; 0: not.
   std::size_t oracle_pixels = 0;
+  /// The oracle looks at these pixels instead, ascending, where there are any.
+  std::vector<std::uint32_t> pixels{};
 };
 
 /// Images of one scene, one light and one size against two references. Pixels that one image has asked for are not traced

@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include "tests/yardstick/judging.h"
+#include "tests/yardstick/parts.h"
+
+namespace penumbra::yardstick {
+namespace {
+
+/// The scene of the same family at unit scale.
+struct Family {
+  std::string prefix, base;
+};
+const std::array<Family, 5> kFamilies{{{"ground_", "ground_2e1"},
+                                       {"stray", "ground_2e1"},
+                                       {"sheet_", "sheet_1e-1"},
+                                       {"sun_", "sun_1e1"},
+                                       {"lamp_in_wall_plane_", "lamp_in_wall_plane_1e-1"}}};
+
+std::vector<std::string> names_of_cases() {
+  std::vector<std::string> names;
+  const auto folder = std::filesystem::path(PENUMBRA_DATA) / "regressions" / "scenes";
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+std::string base_of(const std::string& name) {
+  const auto family =
+      std::ranges::find_if(kFamilies, [&](const Family& f) { return name.starts_with(f.prefix); });
+  if (family == kFamilies.end()) throw std::runtime_error("the case " + name + " has no family");
+  return family->base;
+}
+
+}  // namespace
+
+void judge_cases(Report& report) {
+  std::map<std::string, JudgedScene> bases;
+  for (const std::string& name : names_of_cases()) {
+    if (!report.wants("cases/" + name)) continue;
+    const std::string base_name = base_of(name);
+    JudgedScene& base = bases.try_emplace(base_name, scene_named(base_name)).first->second;
+    if (name == base_name) {
+      judge_all(report, "cases/" + name, base, &base, contenders());
+    } else {
+      JudgedScene scene(scene_named(name));
+      judge_all(report, "cases/" + name, scene, &base, contenders());
+    }
+  }
+}
+
+}  // namespace penumbra::yardstick

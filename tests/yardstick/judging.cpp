@@ -1,0 +1,173 @@
+#include "tests/yardstick/judging.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/cli/judge.h"
+
+namespace penumbra::yardstick {
+namespace {
+
+constexpr std::size_t kChanging = 8'000, kOthers = 2'000;
+constexpr int kRays = 1'024, kFewRays = 16;
+constexpr std::uint64_t kSeed = 11;
+constexpr double kRelative = 1.5, kRelativeLeast = 0.001;
+
+OptionValues samples(std::uint64_t count) {
+  return {{"samples", count}};
+}
+
+/// Pixels whose V is partial or unlike that of a pixel beside, and some of the others; ascending. Nothing of the methods
+/// has a share in the choice.
+std::vector<std::uint32_t> choose_pixels(const Scene& scene, const PictureSize& size) {
+  const SurfaceBuffer surface = apps::surface_by_oracle(scene, size.width, size.height);
+  std::vector<std::uint32_t> seen, changing, others;
+  for (std::uint32_t i = 0; i < surface.size(); ++i)
+    if (surface.hit(i)) seen.push_back(i);
+  const apps::Judge judge(scene, scene.lights.front().shape);
+  const std::vector<float> values = judge.visibility(surface, seen, kFewRays, kSeed);
+  std::vector<float> visibility(surface.size(), -1.0f);
+  for (std::size_t k = 0; k < seen.size(); ++k) visibility[seen[k]] = values[k];
+  for (const std::uint32_t i : seen) {
+    const int x = static_cast<int>(i) % size.width, y = static_cast<int>(i) / size.width;
+    bool changes = visibility[i] > 0.0f && visibility[i] < 1.0f;
+    for (int v = std::max(y - 1, 0); v <= std::min(y + 1, size.height - 1); ++v)
+      for (int u = std::max(x - 1, 0); u <= std::min(x + 1, size.width - 1); ++u)
+        changes = changes || visibility[static_cast<std::size_t>(v * size.width + u)] != visibility[i];
+    (changes ? changing : others).push_back(i);
+  }
+  std::vector<std::uint32_t> chosen = apps::some_of(std::move(changing), kChanging);
+  others = apps::some_of(std::move(others), kOthers);
+  chosen.insert(chosen.end(), others.begin(), others.end());
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+// The light's center instead of the light.
+struct Center {
+  LightShape operator()(DiskLight light) const {
+    light.radius = 0.0;
+    return light;
+  }
+  LightShape operator()(DistantLight light) const {
+    light.angle_degrees = 0.0;
+    return light;
+  }
+  LightShape operator()(const RectangleLight& light) const {
+    return DiskLight{light.center, light.normal, 0.0};
+  }
+};
+
+}  // namespace
+
+// Stratified rays are off by .0008 RMS at 4,096 samples and by .0066 at 256. A hard shadow's pixels are right or wrong: one
+// in a thousand may be, at outlines.
+std::vector<Contender> contenders() {
+  return {{.method = "silhouette", .limits = {0.001, 0.03}},
+          {.method = "reference", .options = samples(4'096), .limits = {0.002, 0.03}},
+          {.method = "rays", .options = samples(256), .limits = {0.01, 0.1}},
+          {.method = "hard", .limits = {0.032, 1.0}, .is_hard = true},
+          {.method = "dbuffer", .is_relative = true},
+          {.method = "occlusion-textures", .is_relative = true}};
+}
+
+Contender contender(const std::string& method) {
+  const std::vector<Contender> all = contenders();
+  return *std::ranges::find(all, method, &Contender::method);
+}
+
+std::string text_of(const Verdict& v) {
+  if (!v.trouble.empty()) return v.trouble;
+  std::string out = text("%5zu in penumbra, RMSE %.5f; of all %.5f, at most %.4f", v.penumbra, v.rmse,
+                         v.rmse_of_all, v.most);
+  if (v.certified > 0) out += text("; certificates %zu, wrong %zu", v.certified, v.contradicted);
+  return out;
+}
+
+JudgedScene::JudgedScene(Scene scene, PictureSize size) : renderer_(std::move(scene)), size_(size) {}
+
+bool JudgedScene::takes(const Contender& contender) const {
+  try {
+    require_taken(method_named(contender.method), scene().lights.front().shape);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+RenderResult JudgedScene::draw(const Contender& contender) {
+  return renderer_.render({.method = contender.method,
+                           .options = contender.options,
+                           .width = size_.width,
+                           .height = size_.height});
+}
+
+std::unique_ptr<apps::SceneComparison> JudgedScene::make_judge(const Scene& scene, int rays) const {
+  return std::make_unique<apps::SceneComparison>(
+      scene, apps::Judged{},
+      apps::TraceOptions{
+          .samples = rays, .oracle_pixels = kChanging + kOthers, .pixels = choose_pixels(scene, size_)});
+}
+
+apps::SceneComparison& JudgedScene::judge_for(const Contender& contender) {
+  if (!contender.is_hard) {
+    if (!soft_) soft_ = make_judge(scene(), kRays);
+    return *soft_;
+  }
+  if (!hard_) {
+    with_point_light_ = scene();
+    LightShape& shape = with_point_light_->lights.front().shape;
+    shape = std::visit(Center{}, shape);
+    hard_ = make_judge(*with_point_light_, 1);
+  }
+  return *hard_;
+}
+
+const Verdict& JudgedScene::verdict(const Contender& contender) {
+  const auto [at, is_new] = verdicts_.try_emplace(contender.method);
+  Verdict& out = at->second;
+  if (!is_new) return out;
+  try {
+    const apps::Comparison comparison = judge_for(contender).compare(draw(contender).image);
+    out.penumbra = comparison.penumbra.size();
+    out.rmse = comparison.penumbra.empty() ? 0.0 : comparison.in_penumbra.rmse;
+    out.rmse_of_all = comparison.all.rmse;
+    out.most = comparison.all.max_absolute;
+    out.certified = comparison.certified;
+    out.contradicted = comparison.contradicted;
+  } catch (const std::exception& e) {
+    out.trouble = e.what();
+  }
+  return out;
+}
+
+bool is_right(const Contender& contender, const Verdict& verdict, JudgedScene* base) {
+  if (!verdict.trouble.empty() || verdict.contradicted > 0) return false;
+  if (!contender.is_relative) {
+    const Limits& limits = contender.limits;
+    return verdict.rmse <= limits.rmse && verdict.rmse_of_all <= limits.rmse && verdict.most <= limits.most;
+  }
+  const Verdict& usual = base->verdict(contender);
+  return usual.trouble.empty() && verdict.rmse <= kRelative * usual.rmse + kRelativeLeast &&
+         verdict.rmse_of_all <= kRelative * usual.rmse_of_all + kRelativeLeast;
+}
+
+void judge_all(Report& report, const std::string& name, JudgedScene& scene, JudgedScene* base,
+               const std::vector<Contender>& methods) {
+  for (const Contender& method : methods) {
+    const std::string line = name + "/" + method.method;
+    if (!report.wants(line) || !scene.takes(method)) continue;
+    const Verdict& verdict = scene.verdict(method);
+    report.add(line, is_right(method, verdict, base), text_of(verdict));
+  }
+}
+
+Scene scene_named(const std::string& name) {
+  const std::filesystem::path data(PENUMBRA_DATA);
+  for (const char* folder : {"regressions/scenes", "scenes"})
+    if (const auto file = data / folder / (name + ".json"); std::filesystem::exists(file))
+      return load_scene(file).scene;
+  throw UsageError("no scene " + name + " in data/regressions/scenes and data/scenes");
+}
+
+}  // namespace penumbra::yardstick
