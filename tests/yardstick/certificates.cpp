@@ -42,7 +42,6 @@ std::vector<std::uint32_t> suspects(const std::vector<std::int8_t>& region) {
 }
 
 void judge_scene(Report& report, const std::string& line, const Scene& scene) {
-  if (!report.wants(line)) return;
   const Contender method = contender("silhouette");
   JudgedScene judged(scene, kSize);
   if (!judged.takes(method)) return;
@@ -73,15 +72,19 @@ void judge_certificates(Report& report) {
     if (entry.path().extension() == ".json") scenes.push_back(entry.path().stem().string());
   std::ranges::sort(scenes);
   for (const std::string& name : scenes)
-    if (report.wants("certificates/" + name)) judge_scene(report, "certificates/" + name, scene_named(name));
+    if (report.wants("certificates/" + name))
+      report.attempt("certificates/" + name,
+                     [&] { judge_scene(report, "certificates/" + name, scene_named(name)); });
   for (const char* mesh : kMeshes)
     for (std::uint64_t pose = 0; pose < kPoses; ++pose) {
       const std::string line = "certificates/" + std::filesystem::path(mesh).stem().string() +
                                text("_pose_%d", static_cast<int>(pose));
-      if (report.wants(line))
+      if (!report.wants(line)) continue;
+      report.attempt(line, [&] {
         judge_scene(
             report, line,
             testing::load_pose(testing::random_pose(std::string("meshes/") + mesh, kFirstPose + pose)));
+      });
     }
 }
 

@@ -112,8 +112,10 @@ void judge_moves_of(Report& report, const std::string& name) {
     JudgedScene after(moved(scene, move), size);
     judge_all(report, line, after, &base, contenders_of_moves());
     if (!base.takes(exact)) continue;
-    if (!before) before = base.draw(exact);
-    check_sameness(report, line + "/same", *before, after);
+    report.attempt(line + "/same", [&] {
+      if (!before) before = base.draw(exact);
+      check_sameness(report, line + "/same", *before, after);
+    });
   }
 }
 

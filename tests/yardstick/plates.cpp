@@ -153,11 +153,13 @@ void judge_plates_under(Report& report, const std::string& kind, const Shape& li
     const Scene scene = plate_scene(ground, light);
     const Truth truth = truth_of(scene, light);
     JudgedScene judged(scene, kSize);
-    const auto is_asked = [&](const std::string& method) {
-      return report.wants(line + "/" + method) && judged.takes(contender(method));
+    const auto judge = [&](const std::string& method, const auto& by) {
+      const std::string name = line + "/" + method;
+      if (report.wants(name) && judged.takes(contender(method)))
+        report.attempt(name, [&] { by(report, name, judged, truth); });
     };
-    if (is_asked("silhouette")) judge_silhouette(report, line + "/silhouette", judged, truth);
-    if (is_asked("reference")) judge_reference(report, line + "/reference", judged, truth);
+    judge("silhouette", judge_silhouette);
+    judge("reference", judge_reference);
   }
 }
 

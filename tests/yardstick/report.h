@@ -1,6 +1,7 @@
 // What the yardstick finds: one line a case, and whether it is right.
 #pragma once
 
+#include <exception>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,15 @@ class Report {
   bool wants(const std::string& name) const;
   /// Prints the line at once.
   void add(const std::string& name, bool right, const std::string& figures);
+  /// Calls `judge`; what it throws is a finding that is wrong.
+  template <class Judge>
+  void attempt(const std::string& name, const Judge& judge) {
+    try {
+      judge();
+    } catch (const std::exception& e) {
+      add(name, false, e.what());
+    }
+  }
   /// Prints how many cases of each part and method are right. 0, or 1 where one that is required is wrong or was not
   /// looked at although it was wanted.
   int conclude() const;
