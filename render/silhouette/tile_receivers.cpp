@@ -6,6 +6,14 @@
 #include "render/support/vector_clones.h"
 
 namespace penumbra::detail {
+namespace {
+
+/// Accuracy. A horizon that cuts the disk is raised by this much, light radii. What lies in a receiver's tangent plane, such
+/// as the edges of a face that it meets at a right angle, is then below it for certain, and not on either side by rounding.
+/// Visibility is in float, which has fewer digits. Held by the test ExactReceivers.
+constexpr double kRaised = 0x1p-30;
+
+}  // namespace
 
 ReceiverSource::ReceiverSource(const Receivers& receivers, const ReceiverGroups& groups,
                                const UnitLight& light, bool horizon, SilhouetteResult& out)
@@ -35,12 +43,17 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::uint32_t index,
     out_.visibility[index] = 0.0f;
     return Kind::kBelowHorizon;
   }
+  Chord horizon = no_horizon();
+  if (cuts) {
+    horizon = chord_of_plane(n, x, 1.0);
+    horizon.delta -= kRaised;
+  }
   // In place, member by member: a receiver made elsewhere and copied is read in wider pieces than it was
   // written in, for which the processor waits.
   TileReceiver& r = receivers.emplace_back();
   r.x = x;
   r.normal = n;
-  r.horizon = cuts ? chord_of_plane(n, x, 1.0) : no_horizon();
+  r.horizon = horizon;
   r.horizon_cuts = cuts;
   r.index = index;
   return Kind::kReceiver;
