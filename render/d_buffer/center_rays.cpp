@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "mesh/vectors.h"
 #include "render/light/disk_area.h"
 #include "render/light/disk_samples.h"
 #include "render/rays/ray_packets.h"
@@ -16,9 +17,9 @@
 
 namespace penumbra {
 
-/// Sixteen receivers, in the frame of the rays.
+/// Sixteen receivers, in the world.
 struct detail::ReceiverLanes {
-  const float *x, *y, *z, *nx, *ny, *nz;
+  const double *x, *y, *z, *nx, *ny, *nz;
 };
 
 namespace {
@@ -30,75 +31,73 @@ constexpr std::size_t kLanes = RayPacket::kRays;
 /// Speed: pixels a side of a block whose rays share a packet (d_buffer_bench).
 constexpr int kBlock = 4;
 
-struct LocalDisk {
-  float x, y, z;     ///< center
-  float mx, my, mz;  ///< unit normal
-  float radius;
+/// A disk at center - weight · x as seen from x: of a distant light the direction towards it, the same for all x.
+struct SeenDisk {
+  explicit SeenDisk(const CircularLight& light)
+      : normal(detail::unit(light.normal)),
+        center(light.is_distant() ? -normal : light.center),
+        weight(light.weight),
+        radius(light.radius) {}
+  Vec3 normal, center;
+  double weight, radius;
 };
-
-LocalDisk local_disk(const DiskLight& light, const RayFrame& frame) {
-  const glm::vec3 center(frame.to_local(light.center)), m(light_frame(light).w);
-  return {center.x, center.y, center.z, m.x, m.y, m.z, static_cast<float>(light.radius * frame.scale)};
-}
 
 /// The disk as a receiver's horizon lies across it.
 struct AboveHorizon {
   /// From the receiver to the disk's center.
-  float x, y, z;
+  double x, y, z;
   /// Up the disk: the receiver's normal without its part along the light's. And its length.
-  float ux, uy, uz, size;
+  double ux, uy, uz, size;
   /// Of the disk's center above the horizon.
-  float height;
-  /// How far the ray's origin is in front of the light's plane.
-  float before;
-  /// The surface point (not the ray's origin) lies behind the light's plane or in it.
+  double height;
+  /// The receiver lies behind the light's plane or in it.
   bool behind;
 };
 
 PENUMBRA_INLINE AboveHorizon above_horizon_of(const ReceiverLanes& from, std::size_t k,
-                                              const LocalDisk& disk) {
+                                              const SeenDisk& disk) {
   AboveHorizon out;
-  out.x = disk.x - from.x[k], out.y = disk.y - from.y[k], out.z = disk.z - from.z[k];
-  const float nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
-  const float along = nx * disk.mx + ny * disk.my + nz * disk.mz;
-  out.ux = nx - along * disk.mx, out.uy = ny - along * disk.my, out.uz = nz - along * disk.mz;
+  const Vec3 &c = disk.center, &m = disk.normal;
+  out.x = c.x - disk.weight * from.x[k];
+  out.y = c.y - disk.weight * from.y[k];
+  out.z = c.z - disk.weight * from.z[k];
+  const double nx = from.nx[k], ny = from.ny[k], nz = from.nz[k];
+  const double along = nx * m.x + ny * m.y + nz * m.z;
+  out.ux = nx - along * m.x, out.uy = ny - along * m.y, out.uz = nz - along * m.z;
   out.size = std::sqrt(out.ux * out.ux + out.uy * out.uy + out.uz * out.uz);
   out.height = nx * out.x + ny * out.y + nz * out.z;
-  out.before = -(out.x * disk.mx + out.y * disk.my + out.z * disk.mz);
-  out.behind = out.before - static_cast<float>(kRayOffset) * along <= static_cast<float>(kLightOffset);
+  out.behind = out.x * m.x + out.y * m.y + out.z * m.z >= 0.0;
   return out;
 }
 
-/// Rays to the points aimed at; those that need not be traced are not wanted.
+/// Ways to the points aimed at; those that need not be traced are not wanted.
 PENUMBRA_VECTOR_CLONES
-void aim(const ReceiverLanes& from, const LocalDisk& disk, RayPacket& packet) {
+void aim(const ReceiverLanes& from, const SeenDisk& disk, RayPacket& packet) {
   for (std::size_t k = 0; k < kLanes; ++k) {
     const AboveHorizon seen = above_horizon_of(from, k, disk);
-    const bool lifted = seen.height <= 0.0f && seen.height + disk.radius * seen.size > 0.0f;
+    const bool lifted = seen.height <= 0.0 && seen.height + disk.radius * seen.size > 0.0;
     // From the center up to the middle between horizon (-height / size) and top (radius).
-    const float lift = lifted ? 0.5f * (disk.radius - seen.height / seen.size) / seen.size : 0.0f;
+    const double lift = lifted ? 0.5 * (disk.radius - seen.height / seen.size) / seen.size : 0.0;
     packet.from_x[k] = from.x[k], packet.from_y[k] = from.y[k], packet.from_z[k] = from.z[k];
     packet.way_x[k] = seen.x + lift * seen.ux;
     packet.way_y[k] = seen.y + lift * seen.uy;
     packet.way_z[k] = seen.z + lift * seen.uz;
-    packet.end[k] = ray_end(seen.before);
-    packet.wanted[k] = (seen.height > 0.0f || lifted) && !seen.behind ? -1 : 0;
+    packet.wanted[k] = (seen.height > 0.0 || lifted) && !seen.behind ? -1 : 0;
   }
 }
 
 /// The chord that a receiver's horizon cuts off the disk, as its signed distance from the center in radii: 1
-/// and more where all of the disk is above, -1 behind the light. Heights are of the surface, not of the ray's
-/// origin.
-PENUMBRA_INLINE float horizon_chord(const ReceiverLanes& from, std::size_t k, const LocalDisk& disk) {
+/// and more where all of the disk is above, -1 behind the light.
+PENUMBRA_INLINE double horizon_chord(const ReceiverLanes& from, std::size_t k, const SeenDisk& disk) {
   const AboveHorizon seen = above_horizon_of(from, k, disk);
-  const float reach = disk.radius * seen.size, height = seen.height + static_cast<float>(kRayOffset);
-  const float inside = height / std::max(reach, 1e-30f);
-  return seen.behind ? -1.0f : height >= reach ? 1.0f : inside;
+  const double reach = disk.radius * seen.size;
+  const double inside = seen.height / std::max(reach, 1e-300);
+  return seen.behind ? -1.0 : seen.height >= reach ? 1.0 : inside;
 }
 
 /// What lies beyond a chord.
-float open_fraction(float delta) {
-  return delta >= 1.0f ? 1.0f : delta > -1.0f ? static_cast<float>(half_plane_area(delta)) : 0.0f;
+float open_fraction(double delta) {
+  return delta >= 1.0 ? 1.0f : delta > -1.0 ? static_cast<float>(half_plane_area(delta)) : 0.0f;
 }
 
 }  // namespace
@@ -111,16 +110,19 @@ CenterRays::CenterRays(const Receivers& surface, const RayScene& rays)
   const auto count = static_cast<std::size_t>(
       std::count_if(surface.objects.begin(), surface.objects.end(), [](int object) { return object >= 0; }));
   const std::size_t padded = (count + kLanes - 1) / kLanes * kLanes;
-  for (auto* list : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) list->assign(padded, 0.0f);
+  for (auto* list : {&x_, &y_, &z_, &nx_, &ny_, &nz_}) list->assign(padded, 0.0);
+  object_.assign(padded, -1);
+  face_.assign(padded, 0);
   pixel_.reserve(count);
   const auto add = [&](std::uint32_t i) {
     if (!surface.is_present(i)) return;
-    const Vec3& n = surface.normals[i];
-    const glm::vec3 p(rays.frame().to_local(surface.points[i]) + kRayOffset * n);
+    const Vec3 &n = surface.normals[i], &p = surface.points[i];
+    const detail::RayStart start = detail::start_of(surface, i);
     const std::size_t k = pixel_.size();
     place_[i] = static_cast<std::uint32_t>(k);
     x_[k] = p.x, y_[k] = p.y, z_[k] = p.z;
-    nx_[k] = static_cast<float>(n.x), ny_[k] = static_cast<float>(n.y), nz_[k] = static_cast<float>(n.z);
+    nx_[k] = n.x, ny_[k] = n.y, nz_[k] = n.z;
+    object_[k] = start.object, face_[k] = start.face;
     pixel_.push_back(i);
   };
   for (int top = 0; top < surface.height; top += kBlock)
@@ -134,14 +136,17 @@ detail::ReceiverLanes CenterRays::lanes(std::size_t first) const {
   return {&x_[first], &y_[first], &z_[first], &nx_[first], &ny_[first], &nz_[first]};
 }
 
-void CenterRays::center_seen(const DiskLight& light, std::vector<float>& out) const {
+void CenterRays::center_seen(const CircularLight& light, std::vector<float>& out) const {
   out.assign(pixels_, 1.0f);
-  const LocalDisk disk = local_disk(light, rays_.frame());
+  const SeenDisk disk(light);
   const auto trace = [&](const tbb::blocked_range<std::size_t>& packets) {
     RayPacket packet;
+    packet.endless = light.is_distant();
     for (std::size_t p = packets.begin(); p < packets.end(); ++p) {
       const std::size_t first = p * kLanes, count = std::min(kLanes, pixel_.size() - first);
       aim(lanes(first), disk, packet);
+      std::copy_n(&object_[first], kLanes, packet.object);
+      std::copy_n(&face_[first], kLanes, packet.face);
       for (std::size_t k = count; k < kLanes; ++k) packet.wanted[k] = 0;
       detail::find_occluded(rays_, packet, detail::Coherence::kCoherent);
       for (std::size_t k = 0; k < count; ++k)
@@ -178,27 +183,24 @@ std::array<DiskPoints, 9> interleaved_points() {
 
 }  // namespace
 
-std::vector<float> CenterRays::sampled_visibility(const DiskLight& light,
+std::vector<float> CenterRays::sampled_visibility(const CircularLight& light,
                                                   std::span<const std::uint32_t> pixels) const {
-  const LightFrame axes = light_frame(light);
-  const double radius = light.radius * rays_.frame().scale;
-  const glm::vec3 center(rays_.frame().to_local(light.center)), u(radius * axes.u), v(radius * axes.v);
-  const LocalDisk disk = local_disk(light, rays_.frame());
+  const LightFrame axes = light_frame(DiskLight{.normal = light.normal});
+  const Vec3 u = light.radius * axes.u, v = light.radius * axes.v;
+  const SeenDisk disk(light);
   const auto patterns = interleaved_points();
   const auto look = [&](std::uint32_t pixel) {
     const std::uint32_t at = place_[pixel];
     const DiskPoints& points = patterns[pixel / width_ % 3 * 3 + pixel % width_ % 3];
-    const glm::vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
+    const Vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
     const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
     if (!(open > 0.0f)) return 0.0f;
-    const float end = ray_end(above_horizon_of(lanes(at), 0, disk).before);
     RayPacket packet;
+    packet.endless = light.is_distant();
     for (std::size_t k = 0; k < kLanes; ++k) {
-      const glm::vec3 way = center + points[k].x * u + points[k].y * v - from;
-      packet.from_x[k] = from.x, packet.from_y[k] = from.y, packet.from_z[k] = from.z;
-      packet.way_x[k] = way.x, packet.way_y[k] = way.y, packet.way_z[k] = way.z;
-      packet.end[k] = end;
-      packet.wanted[k] = glm::dot(way, n) > 0.0f ? -1 : 0;
+      const Vec3 way = disk.center - disk.weight * from + double{points[k].x} * u + double{points[k].y} * v;
+      packet.set(k, {{from, object_[at], face_[at]}, way});
+      packet.wanted[k] = glm::dot(way, n) > 0.0 ? -1 : 0;
     }
     // They graze casters: a tenth faster than as coherent rays.
     detail::find_occluded(rays_, packet, detail::Coherence::kIncoherent);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "penumbra/render/receivers/receivers.h"
+#include "penumbra/volumes/disk_light.h"
 #include "render/rays/ray_scene.h"
 
 namespace penumbra {
@@ -26,13 +27,14 @@ class CenterRays {
   /// center, else 1. If the center is below the point's horizon but part of the disk is above it, the middle
   /// of that part takes the center's place. 1 behind the light, and where all of the disk is below the
   /// horizon. Cost: one ray a pixel, on all cores.
-  void center_seen(const DiskLight& light, std::vector<float>& out) const;
+  void center_seen(const CircularLight& light, std::vector<float>& out) const;
   /// Visibility of each of the given pixels, all of which see a surface. It is the disk's fraction above the
   /// horizon, times the part that is seen of sixteen points on the disk, those below the horizon left out.
   /// Nine patterns of points alternate over three by three pixels (interleaved sampling, A. Keller and W.
   /// Heidrich 2001). Where one edge crosses the disk, the root mean square error over all chords is .037 for
   /// one pattern (at most .14) and .007 for the mean of nine. Cost: sixteen rays a pixel, on all cores.
-  std::vector<float> sampled_visibility(const DiskLight& light, std::span<const std::uint32_t> pixels) const;
+  std::vector<float> sampled_visibility(const CircularLight& light,
+                                        std::span<const std::uint32_t> pixels) const;
 
  private:
   detail::ReceiverLanes lanes(std::size_t first) const;
@@ -45,8 +47,10 @@ class CenterRays {
   std::vector<std::uint32_t> pixel_;
   /// Of each pixel its place in pixel_.
   std::vector<std::uint32_t> place_;
-  /// Origins of rays in the frame of the rays, and normals; padded to whole packets.
-  std::vector<float> x_, y_, z_, nx_, ny_, nz_;
+  /// Receivers in the world, normals, and the faces that they lie on; padded to whole packets.
+  std::vector<double> x_, y_, z_, nx_, ny_, nz_;
+  std::vector<std::int32_t> object_;
+  std::vector<std::uint32_t> face_;
 };
 
 }  // namespace penumbra

@@ -2,61 +2,98 @@
 
 #include <tbb/parallel_for.h>
 
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "mesh/vectors.h"
-#include "render/rays/ray_scene_impl.h"
+#include "render/rays/hit_filter.h"
 
 namespace penumbra {
 namespace {
 
-constexpr int kLanes = 16;
+using detail::GroupRays;
+using detail::NearestHit;
+using detail::RayPacket;
+
+constexpr int kLanes = RayPacket::kRays;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What one pixel's ray meets first.
+struct Seen {
+  const detail::RayGeometry* geometry = nullptr;
+  std::uint32_t face = 0;
+  double distance = kInfinity;
+};
 
 /// The faces seen through up to 16 neighboring pixels of a row.
 void trace_row_part(const RayScene& rays, const PixelRays& pixels, int x0, int y, int count,
-                    RTCRayHit16& packet, int* valid) {
-  const RayFrame& frame = rays.frame();
-  const Vec3 origin = frame.to_local(pixels.origin);
+                    RayPacket& packet, GroupRays& of_group, Seen* out) {
   for (int i = 0; i < kLanes; ++i) {
-    valid[i] = i < count ? -1 : 0;
-    const Vec3 d = glm::normalize(pixels.direction(x0 + std::min(i, count - 1) + 0.5, y + 0.5));
-    packet.ray.org_x[i] = static_cast<float>(origin.x);
-    packet.ray.org_y[i] = static_cast<float>(origin.y);
-    packet.ray.org_z[i] = static_cast<float>(origin.z);
-    packet.ray.dir_x[i] = static_cast<float>(d.x);
-    packet.ray.dir_y[i] = static_cast<float>(d.y);
-    packet.ray.dir_z[i] = static_cast<float>(d.z);
-    packet.ray.tnear[i] = 0.0f;
-    packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-    packet.ray.time[i] = 0.0f;
-    packet.ray.mask[i] = ~0u;
-    packet.ray.flags[i] = 0;
-    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    packet.wanted[i] = i < count ? -1 : 0;
+    packet.set_way(i, pixels.direction(x0 + std::min(i, count - 1) + 0.5, y + 0.5));
+    out[i] = {};
   }
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, rays.impl().all, &context, &packet);
+  std::array<NearestHit, RayPacket::kRays> nearest;
+  for (const auto* groups : {&rays.impl().casters, &rays.impl().others})
+    for (const auto& group : *groups) {
+      if (!of_group.set(packet, packet.wanted, group->frame)) continue;
+      detail::find_nearest(*group, packet, of_group, nearest);
+      for (int i = 0; i < count; ++i) {
+        if (!nearest[i].geometry) continue;
+        const double distance =
+            detail::distance_to(*nearest[i].geometry, nearest[i].face, pixels.origin, packet.way(i));
+        if (!(distance >= out[i].distance)) out[i] = {nearest[i].geometry, nearest[i].face, distance};
+      }
+    }
 }
 
-/// Point and normal of pixel (x, y), in double, from the pixel's ray and the face's plane.
-void place(const Scene& scene, const PixelRays& pixels, int x, int y, std::size_t pixel,
-           float embree_distance, double scale, SurfaceBuffer& out) {
-  const TriangleMesh& mesh = scene.objects[static_cast<std::size_t>(out.object[pixel])].mesh;
-  const IndexedTriangle& t = mesh.triangles()[out.face[pixel]];
+Bounds bounds_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))};
+}
+
+bool is_inside(const Bounds& box, const Vec3& p) {
+  const Vec3 size = box.high - box.low;
+  const double margin = 0x1p-20 * detail::largest_component(size);
+  return glm::all(glm::greaterThanEqual(p, box.low - margin)) &&
+         glm::all(glm::lessThanEqual(p, box.high + margin));
+}
+
+/// The point of the ray nearest to `distance` that lies in the box; one close to both where the ray misses it.
+Vec3 point_in_box(const Bounds& box, const Vec3& origin, const Vec3& direction, double distance) {
+  double enter = -kInfinity, leave = kInfinity;
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0.0) continue;
+    const double a = (box.low[k] - origin[k]) / direction[k], b = (box.high[k] - origin[k]) / direction[k];
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+  const double first = std::min(enter, leave), last = std::max(enter, leave);
+  const double at = std::isfinite(distance) ? std::clamp(distance, first, last) : 0.5 * first + 0.5 * last;
+  return glm::clamp(origin + at * direction, box.low, box.high);
+}
+
+/// Point and normal of a pixel, in double, from the pixel's ray and the face's plane.
+///
+/// The point is rounded as its distance from the camera is; put onto the plane once more it misses it by the rounding
+/// of n·(p - a), four roundings of every |p - a|, and by that of its own coordinates.
+void place(const Vec3& origin, const Vec3& direction, const Seen& seen, std::size_t pixel,
+           SurfaceBuffer& out) {
+  const TriangleMesh& mesh = seen.geometry->mesh;
+  const IndexedTriangle& t = mesh.triangles()[seen.face];
   const auto points = mesh.positions();
-  const Vec3 a = points[t[0]];
-  Vec3 normal = detail::unit(glm::cross(points[t[1]] - a, points[t[2]] - a));
-  const Vec3 direction = pixels.direction(x + 0.5, y + 0.5);
-  const double slope = glm::dot(normal, direction);
-  const double traced = embree_distance / (scale * glm::length(direction));
-  double distance = slope != 0.0 ? glm::dot(normal, a - pixels.origin) / slope : traced;
-  // A face seen edge-on has no well-placed plane point: the double hit may run far off the face.
-  if (!(std::abs(distance - traced) <= 1e-3 * traced)) distance = traced;
-  out.position[pixel] = pixels.origin + distance * direction;
-  out.normal[pixel] = slope > 0.0 ? -normal : normal;
+  const Vec3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
+  const Vec3 normal = detail::unit(glm::cross(b - a, c - a));
+  Vec3 point = origin + seen.distance * direction;
+  // A face seen edge-on leaves the place in its plane to rounding.
+  const Bounds box = bounds_of(a, b, c);
+  if (!is_inside(box, point)) point = point_in_box(box, origin, direction, seen.distance);
+  out.position[pixel] = point - glm::dot(normal, point - a) * normal;
+  out.normal[pixel] = glm::dot(normal, direction) > 0.0 ? -normal : normal;
+  out.object[pixel] = static_cast<std::int32_t>(seen.geometry->object);
+  out.face[pixel] = seen.face;
 }
 
 }  // namespace
@@ -77,19 +114,20 @@ SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int 
   const PixelRays pixels(scene.camera, width, height);
   rays.arena().execute([&] {
     tbb::parallel_for(0, height, [&](int y) {
-      alignas(64) RTCRayHit16 packet;
-      alignas(64) int valid[kLanes];
+      RayPacket packet;
+      packet.endless = true;
+      for (int i = 0; i < kLanes; ++i) packet.set_start(i, {.point = pixels.origin});
+      GroupRays of_group;
+      Seen seen[kLanes];
       for (int x0 = 0; x0 < width; x0 += kLanes) {
         const int count = std::min(kLanes, width - x0);
-        trace_row_part(rays, pixels, x0, y, count, packet, valid);
-        for (int i = 0; i < count; ++i) {
-          if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-          const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                                    static_cast<std::size_t>(x0 + i);
-          out.object[pixel] = static_cast<std::int32_t>(packet.hit.geomID[i]);
-          out.face[pixel] = packet.hit.primID[i];
-          place(scene, pixels, x0 + i, y, pixel, packet.ray.tfar[i], rays.frame().scale, out);
-        }
+        trace_row_part(rays, pixels, x0, y, count, packet, of_group, seen);
+        for (int i = 0; i < count; ++i)
+          if (seen[i].geometry)
+            place(pixels.origin, packet.way(i), seen[i],
+                  static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x0 + i),
+                  out);
       }
     });
   });

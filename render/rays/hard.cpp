@@ -4,39 +4,69 @@
 #include <chrono>
 #include <glm/geometric.hpp>
 
-#include "render/rays/ray_scene_impl.h"
-#include "render/rays/ray_start.h"
+#include "render/light/area_light.h"
+#include "render/rays/each_receiver.h"
+#include "render/rays/ray_packets.h"
 
 namespace penumbra {
+namespace {
 
-ReferenceResult trace_hard(const RayScene& rays, const LightShape& light, const Receivers& receivers,
+constexpr std::size_t kRays = detail::RayPacket::kRays;
+
+/// Sixteen receivers that follow each other, or fewer: their rays share a packet.
+class HardRays {
+ public:
+  HardRays(const AreaLight& light, const Receivers& receivers, bool horizon)
+      : light_(light), receivers_(receivers), horizon_(horizon && receivers.has_normals()) {
+    packet_.endless = light.distant;
+  }
+
+  /// Values of the receivers of these indices; returns how many rays were traced.
+  std::size_t trace(const RayScene& rays, std::span<const std::uint32_t> indices, float* out) {
+    std::size_t traced = 0;
+    for (std::size_t k = 0; k < kRays; ++k) packet_.wanted[k] = 0;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      out[k] = set(k, indices[k]) ? 1.0f : 0.0f;
+      traced += packet_.wanted[k] != 0;
+    }
+    if (traced > 0) detail::find_occluded(rays, packet_, detail::Coherence::kCoherent);
+    for (std::size_t k = 0; k < indices.size(); ++k)
+      if (packet_.wanted[k] && packet_.is_occluded(k)) out[k] = 0.0f;
+    return traced;
+  }
+
+ private:
+  /// False where the receiver does not look at the light's center; wants its ray where it does.
+  bool set(std::size_t k, std::uint32_t index) {
+    if (!receivers_.is_present(index)) return true;
+    const Vec3& x = receivers_.points[index];
+    const Vec3 way = light_.from_receiver(x);
+    if (light_.is_behind(x) || (horizon_ && glm::dot(receivers_.normals[index], way) <= 0.0)) return false;
+    packet_.set_start(k, detail::start_of(receivers_, index));
+    packet_.set_way(k, way);
+    packet_.wanted[k] = -1;
+    return true;
+  }
+
+  const AreaLight& light_;
+  const Receivers& receivers_;
+  const bool horizon_;
+  detail::RayPacket packet_;
+};
+
+}  // namespace
+
+ReferenceResult trace_hard(const RayScene& rays, const LightShape& shape, const Receivers& receivers,
                            std::span<const std::uint32_t> indices, bool horizon) {
   const auto start = std::chrono::steady_clock::now();
-  const DiskLight disk = disk_around(light);
-  const glm::vec3 center(rays.frame().to_local(disk.center)), normal(light_frame(disk).w);
+  const AreaLight light = area_light(shape);
   ReferenceResult out;
   out.visibility.assign(indices.size(), 1.0f);
   std::atomic<std::size_t> traced{0};
-  detail::for_each_receiver(rays.arena(), indices.size(), {}, [&](std::size_t i) {
-    const std::uint32_t receiver = indices[i];
-    if (!receivers.is_present(receiver)) return;
-    const detail::RayStart x = detail::ray_start(receivers, receiver, rays.frame());
-    const glm::vec3 d = center - x.origin;
-    const bool below = horizon && receivers.has_normals() && glm::dot(x.normal, d) <= 0.0f;
-    if (is_behind(disk, receivers.points[receiver]) || below) {
-      out.visibility[i] = 0.0f;
-      return;
-    }
-    RTCRay ray{};
-    ray.org_x = x.origin.x, ray.org_y = x.origin.y, ray.org_z = x.origin.z;
-    ray.dir_x = d.x, ray.dir_y = d.y, ray.dir_z = d.z;
-    ray.tfar = ray_end(-glm::dot(d, normal));
-    ray.mask = ~0u;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(rays.impl().casters, &context, &ray);
-    out.visibility[i] = ray.tfar >= 0.0f ? 1.0f : 0.0f;
-    ++traced;
+  detail::for_each_receiver(rays.arena(), (indices.size() + kRays - 1) / kRays, {}, [&](std::size_t i) {
+    const std::size_t first = i * kRays, count = std::min(kRays, indices.size() - first);
+    traced += HardRays(light, receivers, horizon)
+                  .trace(rays, indices.subspan(first, count), &out.visibility[first]);
   });
   out.rays = traced;
   out.milliseconds =

@@ -92,6 +92,7 @@ MethodInfo reference_method() {
   return {.name = "reference",
           .summary = "stratified rays to the light (Embree), the measure for the others",
           .takes_rectangles = true,
+          .takes_distant = true,
           .gives_unoccluded = true,
           .converges = true,
           .options = sampling_options(),
@@ -102,6 +103,7 @@ MethodInfo hard_method() {
   return {.name = "hard",
           .summary = "the hard shadow: one ray to the light's center",
           .takes_rectangles = true,
+          .takes_distant = true,
           .gives_unoccluded = true,
           .options = {},
           .make = make_alone<HardMethod>};

@@ -1,50 +1,70 @@
 #include "render/rays/ray_packets.h"
 
-#include "render/rays/ray_scene_impl.h"
+#include <algorithm>
+#include <array>
+
+#include "render/rays/hit_filter.h"
 
 namespace penumbra::detail {
 namespace {
 
-// Copying a packet would cost up to a tenth of tracing it, so the packet is handed over as it lies in memory.
-static_assert(offsetof(RayPacket, from_x) == offsetof(RTCRay16, org_x));
-static_assert(offsetof(RayPacket, start) == offsetof(RTCRay16, tnear));
-static_assert(offsetof(RayPacket, way_x) == offsetof(RTCRay16, dir_x));
-static_assert(offsetof(RayPacket, unused_time) == offsetof(RTCRay16, time));
-static_assert(offsetof(RayPacket, end) == offsetof(RTCRay16, tfar));
-static_assert(offsetof(RayPacket, unused_mask) == offsetof(RTCRay16, mask));
-static_assert(offsetof(RayPacket, unused_id) == offsetof(RTCRay16, id));
-static_assert(offsetof(RayPacket, unused_flags) == offsetof(RTCRay16, flags));
-static_assert(offsetof(RayPacket, wanted) == sizeof(RTCRay16) && alignof(RayPacket) == alignof(RTCRay16));
+constexpr std::size_t kRays = RayPacket::kRays;
 
-RTCIntersectContext context_for(Coherence coherence) {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = coherence == Coherence::kCoherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                                    : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-  return context;
+RTCIntersectContextFlags flags_of(Coherence coherence) {
+  return coherence == Coherence::kIncoherent ? RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT
+                                             : RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+}
+
+void trace_singly(const RayGroup& group, RTCIntersectContext& context, GroupRays& rays) {
+  for (unsigned k = 0; k < kRays; ++k) {
+    if (!rays.valid[k]) continue;
+    RTCRay ray = rtcGetRayFromRayN(reinterpret_cast<RTCRayN*>(&rays.ray), kRays, k);
+    rtcOccluded1(group.scene, &context, &ray);
+    rays.ray.tfar[k] = ray.tfar;
+  }
+}
+
+/// Adds the rays to `occluded` that a face of the group hides, of those that none hides yet.
+void find_occluded_by(const RayGroup& group, RayPacket& packet, Coherence coherence, GroupRays& rays) {
+  alignas(64) std::int32_t open[kRays];
+  for (std::size_t k = 0; k < kRays; ++k) open[k] = packet.wanted[k] & ~packet.occluded[k];
+  if (!rays.set(packet, open, group.frame)) return;
+  HitQuery query(packet, rays, group, flags_of(coherence));
+  if (coherence == Coherence::kSingly)
+    trace_singly(group, query.context, rays);
+  else
+    rtcOccluded16(rays.valid, group.scene, &query.context, &rays.ray);
+  // Embree sets tfar to -infinity at a hit.
+  for (std::size_t k = 0; k < kRays; ++k)
+    packet.occluded[k] |= rays.valid[k] & (rays.ray.tfar[k] < 0.0f ? -1 : 0);
 }
 
 }  // namespace
 
 void find_occluded(const RayScene& rays, RayPacket& packet, Coherence coherence) {
-  RTCIntersectContext context = context_for(coherence);
-  // Embree sets tfar, our `end`, to -infinity at a hit.
-  rtcOccluded16(packet.wanted, rays.impl().casters, &context, reinterpret_cast<RTCRay16*>(&packet));
+  std::fill_n(packet.occluded, kRays, 0);
+  GroupRays of_group;
+  for (const auto& group : rays.impl().casters) find_occluded_by(*group, packet, coherence, of_group);
 }
 
-std::optional<RayHit> first_hit(const RayScene& rays, const glm::vec3& from, const glm::vec3& way,
-                                float end) {
-  RTCRayHit query{};
-  query.ray.org_x = from.x, query.ray.org_y = from.y, query.ray.org_z = from.z;
-  query.ray.dir_x = way.x, query.ray.dir_y = way.y, query.ray.dir_z = way.z;
-  query.ray.tfar = end;
-  query.ray.mask = ~0u;
-  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context = context_for(Coherence::kIncoherent);
-  rtcIntersect1(rays.impl().casters, &context, &query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return RayHit{query.ray.tfar, query.hit.geomID, query.hit.primID};
+std::optional<RayHit> first_hit(const RayScene& rays, const Ray& ray) {
+  RayPacket packet;
+  packet.set_start(0, ray.from);
+  packet.set_way(0, ray.way);
+  packet.endless = ray.endless;
+  packet.wanted[0] = -1;
+  GroupRays of_group;
+  std::array<NearestHit, kRays> nearest;
+  std::optional<RayHit> first;
+  for (const auto& group : rays.impl().casters) {
+    if (!of_group.set(packet, packet.wanted, group->frame)) continue;
+    find_nearest(*group, packet, of_group, nearest);
+    const NearestHit& hit = nearest[0];
+    if (!hit.geometry) continue;
+    const double distance = distance_to(*hit.geometry, hit.face, ray.from.point, ray.way);
+    if (!first || distance < first->distance) first = RayHit{distance, hit.geometry->object, hit.face};
+  }
+  return first;
 }
 
 }  // namespace penumbra::detail

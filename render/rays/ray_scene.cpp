@@ -1,31 +1,85 @@
 #include "render/rays/ray_scene.h"
 
 #include <embree3/rtcore.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <cstring>
+#include <glm/geometric.hpp>
 
-#include "render/rays/ray_scene_impl.h"
+#include "mesh/vectors.h"
+#include "render/rays/hit_filter.h"
 
 namespace penumbra {
+namespace detail {
 namespace {
 
 void throw_embree_error(void*, RTCError, const char* text) {
   throw SystemError(std::string("Embree: ") + text);
 }
 
-RTCGeometry make_geometry(RTCDevice device, const TriangleMesh& mesh, const RayFrame& frame) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions().size()));
-  for (const Vec3& p : mesh.positions()) {
-    const Vec3 q = frame.to_local(p);
-    for (int k = 0; k < 3; ++k) *points++ = static_cast<float>(q[k]);
+double longest_edge(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces) {
+  if (faces.empty()) return mesh.longest_edge();
+  double longest2 = 0.0;
+  for (const std::uint32_t f : faces) {
+    const IndexedTriangle& t = mesh.triangles()[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 e = mesh.positions()[t[(k + 1) % 3]] - mesh.positions()[t[k]];
+      longest2 = std::max(longest2, glm::dot(e, e));
+    }
   }
-  void* faces = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                        sizeof(IndexedTriangle), mesh.triangles().size());
-  std::memcpy(faces, mesh.triangles().data(), mesh.triangles().size_bytes());
+  return std::sqrt(longest2);
+}
+
+GroupFrame frame_of(const Bounds& bounds) {
+  const RayFrame frame = frame_around(bounds);
+  return {frame.origin, frame.scale, frame.to_local(bounds.low) - kBoxMargin,
+          frame.to_local(bounds.high) + kBoxMargin};
+}
+
+/// The corner at `p` of a face that is grown by kGrown on every side: the sides at it, which run to `q` and `r`, move by
+/// that, so that it moves against their sum by kGrown / sin of their angle. No farther than `farthest`, where the angle
+/// is small.
+Vec3 grown_corner(const Vec3& p, const Vec3& q, const Vec3& r, double farthest) {
+  const Vec3 one = unit(q - p), other = unit(r - p);
+  const double sine = glm::length(glm::cross(one, other));
+  const Vec3 away = -(one + other);
+  const double length = glm::length(away);
+  return length > 0.0 ? p + std::min(kGrown / sine, farthest / length) * away : p;
+}
+
+/// Three corners a face, in the frame: no two faces share one.
+void set_corners(RTCGeometry geometry, const RayGeometry& from, const GroupFrame& frame) {
+  const auto triangles = from.mesh.triangles();
+  const auto positions = from.mesh.positions();
+  const std::size_t count = from.faces.empty() ? triangles.size() : from.faces.size();
+  auto* corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * count));
+  auto* faces = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(IndexedTriangle), count));
+  const auto set = [&](std::size_t i) {
+    std::array<Vec3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = (positions[triangles[from.face(static_cast<std::uint32_t>(i))][k]] - frame.origin) * frame.scale;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[3 * i + k] = glm::vec3(grown_corner(p[k], p[(k + 1) % 3], p[(k + 2) % 3], from.farthest));
+      faces[3 * i + k] = static_cast<std::uint32_t>(3 * i + k);
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 4096), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) set(i);
+  });
+}
+
+RTCGeometry make_geometry(RTCDevice device, RayGeometry& from, const GroupFrame& frame) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  set_corners(geometry, from, frame);
+  rtcSetGeometryUserData(geometry, &from);
+  rtcSetGeometryOccludedFilterFunction(geometry, filter_occluded);
+  rtcSetGeometryIntersectFilterFunction(geometry, filter_nearest);
   rtcCommitGeometry(geometry);
   return geometry;
 }
@@ -36,40 +90,64 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-RayScene::Impl::Impl(const Scene& scene, const RayFrame& frame, tbb::task_arena& threads) {
+RayGeometry::RayGeometry(const TriangleMesh& mesh_, const RayPart& part, const GroupFrame& frame)
+    : mesh(mesh_), object(part.object), faces(part.faces), scale(frame.scale) {
+  const double as_given = longest_edge(mesh, faces) * scale;
+  farthest = std::max(0.125 * as_given, 4.0 * kGrown);
+  const double longest = as_given + 2.0 * farthest;
+  clear = static_cast<float>(kClear * longest * longest);
+  border = static_cast<float>(kBorder * longest);
+}
+
+FaceCorners RayGeometry::corners(std::uint32_t mesh_face) const {
+  const IndexedTriangle& t = mesh.triangles()[mesh_face];
+  const auto p = mesh.positions();
+  return {p[t[0]] * scale, p[t[1]] * scale, p[t[2]] * scale};
+}
+
+RayGroup::RayGroup(RTCDevice device, const Scene& scene_of, const RayPartGroup& group)
+    : frame(frame_of(group.bounds)), scene(rtcNewScene(device)) {
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  for (const RayPart& part : group.parts) {
+    geometries.push_back(std::make_unique<RayGeometry>(scene_of.objects[part.object].mesh, part, frame));
+    RTCGeometry geometry = make_geometry(device, *geometries.back(), frame);
+    rtcAttachGeometryByID(scene, geometry, static_cast<unsigned>(geometries.size() - 1));
+    rtcReleaseGeometry(geometry);
+  }
+}
+
+RayGroup::~RayGroup() {
+  rtcReleaseScene(scene);
+}
+
+}  // namespace detail
+
+RayScene::Impl::Impl(const Scene& scene, tbb::task_arena& threads) {
   device = rtcNewDevice(nullptr);
   if (!device)
     throw SystemError("Embree does not start: no device (error " +
                       std::to_string(rtcGetDeviceError(nullptr)) + ")");
-  rtcSetDeviceErrorFunction(device, throw_embree_error, nullptr);
-  all = rtcNewScene(device);
-  casters = rtcNewScene(device);
-  for (RTCScene s : {all, casters}) rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const SceneObject& object = scene.objects[i];
-    if (object.mesh.empty()) continue;
-    RTCGeometry geometry = make_geometry(device, object.mesh, frame);
-    rtcAttachGeometryByID(all, geometry, static_cast<unsigned>(i));
-    if (object.casts) rtcAttachGeometryByID(casters, geometry, static_cast<unsigned>(i));
-    rtcReleaseGeometry(geometry);
-  }
+  rtcSetDeviceErrorFunction(device, detail::throw_embree_error, nullptr);
   threads.execute([&] {
-    rtcCommitScene(all);
-    rtcCommitScene(casters);
+    for (const bool casts : {true, false})
+      for (const detail::RayPartGroup& group : detail::group_by_scale(scene, casts))
+        (casts ? casters : others).push_back(std::make_unique<detail::RayGroup>(device, scene, group));
+    for (const auto* groups : {&casters, &others})
+      for (const auto& group : *groups) rtcCommitScene(group->scene);
   });
 }
 
 RayScene::Impl::~Impl() {
-  rtcReleaseScene(all);
-  rtcReleaseScene(casters);
+  casters.clear();
+  others.clear();
   rtcReleaseDevice(device);
 }
 
 RayScene::RayScene(const Scene& scene, detail::Threads threads)
     : frame_(ray_frame(scene)), threads_(std::move(threads)) {
   const auto start = std::chrono::steady_clock::now();
-  impl_ = std::make_unique<Impl>(scene, frame_, *threads_);
-  build_ms_ = milliseconds_since(start);
+  impl_ = std::make_unique<Impl>(scene, *threads_);
+  build_ms_ = detail::milliseconds_since(start);
 }
 
 RayScene::RayScene(const Scene& scene, int threads) : RayScene(scene, detail::make_threads(threads)) {}

@@ -1,4 +1,4 @@
-// The scene as Embree sees it: all objects for what a camera sees, casters for what hides lights.
+// The scene as Embree sees it: what casts, for rays to lights, and all of it for what a camera sees.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -12,7 +12,8 @@
 
 namespace penumbra {
 
-/// Embree's hierarchies over a scene's objects, in the frame of its casters (ray_frame). They serve every light.
+/// Embree's hierarchies over a scene's objects, in one group of similar size or several (ray_groups.h), each in a frame
+/// of its own. They serve every light. Meshes are shared, not copied.
 class RayScene {
  public:
   RayScene(const Scene& scene, detail::Threads threads);
@@ -22,6 +23,7 @@ class RayScene {
   RayScene(RayScene&&) noexcept;
   RayScene& operator=(RayScene&&) noexcept;
 
+  /// About all casters (ray_frame).
   const RayFrame& frame() const { return frame_; }
   /// The threads that its callers work on.
   tbb::task_arena& arena() const { return *threads_; }

@@ -3,20 +3,62 @@
 
 #include <embree3/rtcore.h>
 
+#include <memory>
+#include <vector>
+
 #include "penumbra/mesh/error.h"
+#include "render/rays/group_rays.h"
+#include "render/rays/ray_groups.h"
 #include "render/rays/ray_scene.h"
+#include "render/rays/segment_face.h"
 
 namespace penumbra {
+namespace detail {
+
+/// Faces of one object in a group's hierarchy: Embree's geometry of that number, and its user data.
+struct RayGeometry {
+  RayGeometry(const TriangleMesh& mesh, const RayPart& part, const GroupFrame& frame);
+
+  /// Of the object's mesh, by Embree's number.
+  std::uint32_t face(std::uint32_t primitive) const { return faces.empty() ? primitive : faces[primitive]; }
+  /// In world coordinates times the frame's scale: exact, and of a size that products bear.
+  FaceCorners corners(std::uint32_t mesh_face) const;
+
+  TriangleMesh mesh;
+  std::uint32_t object;
+  std::vector<std::uint32_t> faces;  ///< ascending; empty: all
+  double scale;                      ///< of the frame
+  /// A corner moves at most so far when its face is grown (hit_filter.h); in the frame.
+  double farthest;
+  /// Where |t|·|N·d| is larger, float knows on which side of the face a point of the ray lies, t away from the hit
+  /// (hit_filter.h).
+  float clear;
+  /// Where w·|N·d| is larger, float knows that a hit with the least barycentric coordinate w lies within the face.
+  float border;
+};
+
+struct RayGroup {
+  RayGroup(RTCDevice device, const Scene& scene, const RayPartGroup& parts);
+  ~RayGroup();
+  RayGroup(const RayGroup&) = delete;
+  RayGroup& operator=(const RayGroup&) = delete;
+
+  GroupFrame frame;
+  RTCScene scene = nullptr;
+  std::vector<std::unique_ptr<RayGeometry>> geometries;  ///< by Embree's number
+};
+
+}  // namespace detail
 
 struct RayScene::Impl {
-  Impl(const Scene& scene, const RayFrame& frame, tbb::task_arena& threads);
+  Impl(const Scene& scene, tbb::task_arena& threads);
   ~Impl();
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   RTCDevice device = nullptr;
-  RTCScene all = nullptr;      ///< what the camera sees
-  RTCScene casters = nullptr;  ///< what hides the light
+  /// What hides lights, and the rest of what a camera sees.
+  std::vector<std::unique_ptr<detail::RayGroup>> casters, others;
 };
 
 }  // namespace penumbra

@@ -6,16 +6,16 @@
 
 #include "render/light/area_light.h"
 #include "render/light/disk_samples.h"
+#include "render/rays/each_receiver.h"
 #include "render/rays/hard.h"
 #include "render/rays/ray_methods.h"
-#include "render/rays/ray_scene_impl.h"
-#include "render/rays/ray_start.h"
+#include "render/rays/ray_packets.h"
 #include "render/support/vector_clones.h"
 
 namespace penumbra {
 namespace {
 
-constexpr int kLanes = 16;
+constexpr int kLanes = detail::RayPacket::kRays;
 
 /// Where each sample's stratum lies, so that no lane divides.
 struct StratumTable {
@@ -31,30 +31,32 @@ struct StratumTable {
   std::vector<float> columns, rows;
 };
 
-/// The light in the rays' frame, float.
-struct LocalLight {
-  glm::vec3 center, u, v;  ///< u and v are half axes of the disk or the rectangle
-  bool disk;
-  glm::vec3 normal;
-};
-
-LocalLight local_light(const AreaLight& light, const RayFrame& frame) {
-  return {glm::vec3(frame.to_local(light.center)), glm::vec3(light.axes.u * (light.half.x * frame.scale)),
-          glm::vec3(light.axes.v * (light.half.y * frame.scale)), light.disk, glm::vec3(light.axes.w)};
-}
-
-/// Sixteen directions from a receiver to disk samples, and which of them are above its horizon.
+/// Ways from a receiver to sixteen samples of the light, in world coordinates, and which of them are above its horizon.
+///
+/// Double from the start, relative to the receiver: the light may be at any distance.
 struct Aim {
-  alignas(64) float x[kLanes], y[kLanes], z[kLanes];
-  alignas(64) int above[kLanes];
+  /// To the light's center; of a distant light the direction towards it.
+  Vec3 center;
+  /// Half axes of the disk or the rectangle, in the same unit.
+  Vec3 u, v;
+  bool disk;
+  /// The receiver's; 0 where it has none.
+  Vec3 normal;
+
+  Aim(const AreaLight& light, const Receivers& receivers, std::size_t receiver)
+      : center(light.from_receiver(receivers.points[receiver])),
+        u(light.axes.u * light.half.x),
+        v(light.axes.v * light.half.y),
+        disk(light.disk),
+        normal(receivers.has_normals() ? receivers.normals[receiver] : Vec3(0.0)) {}
 };
 
 PENUMBRA_VECTOR_CLONES
-void aim_at_samples(const detail::RayStart& from, const LocalLight& light, const StratumTable& table,
-                    std::uint32_t key, int first, Aim& out) {
+void aim_at_samples(const Aim& aim, const StratumTable& table, std::uint32_t key, int first,
+                    detail::RayPacket& out, int* above) {
   const float per_column = 1.0f / static_cast<float>(table.strata.columns);
   const float per_row = 1.0f / static_cast<float>(table.strata.rows);
-  const glm::vec3 base = light.center - from.origin, u = light.u, v = light.v, n = from.normal;
+  const Vec3 c = aim.center, u = aim.u, v = aim.v, n = aim.normal;
   const float* columns = table.columns.data() + first;
   const float* rows = table.rows.data() + first;
   alignas(64) float a[kLanes], b[kLanes];
@@ -64,7 +66,7 @@ void aim_at_samples(const detail::RayStart& from, const LocalLight& light, const
     a[k] = p.x;
     b[k] = p.y;
   }
-  if (light.disk)
+  if (aim.disk)
     for (int k = 0; k < kLanes; ++k) {
       const detail::DiskPoint p = detail::concentric_disk(a[k], b[k]);
       a[k] = p.x;
@@ -75,26 +77,15 @@ void aim_at_samples(const detail::RayStart& from, const LocalLight& light, const
       a[k] = 2.0f * a[k] - 1.0f;
       b[k] = 2.0f * b[k] - 1.0f;
     }
+  alignas(64) double height[kLanes];
   for (int k = 0; k < kLanes; ++k) {
-    out.x[k] = base.x + u.x * a[k] + v.x * b[k];
-    out.y[k] = base.y + u.y * a[k] + v.y * b[k];
-    out.z[k] = base.z + u.z * a[k] + v.z * b[k];
-    out.above[k] = n.x * out.x[k] + n.y * out.y[k] + n.z * out.z[k] > 0.0f ? -1 : 0;
+    const double s = a[k], t = b[k];
+    out.way_x[k] = c.x + u.x * s + v.x * t;
+    out.way_y[k] = c.y + u.y * s + v.y * t;
+    out.way_z[k] = c.z + u.z * s + v.z * t;
+    height[k] = n.x * out.way_x[k] + n.y * out.way_y[k] + n.z * out.way_z[k];
   }
-}
-
-/// What does not change from packet to packet of one receiver.
-void start_packet(const detail::RayStart& x, RTCRay16& packet) {
-  for (int k = 0; k < kLanes; ++k) {
-    packet.org_x[k] = x.origin.x;
-    packet.org_y[k] = x.origin.y;
-    packet.org_z[k] = x.origin.z;
-    packet.tnear[k] = 0.0f;
-    packet.time[k] = 0.0f;
-    packet.mask[k] = ~0u;
-    packet.id[k] = 0;
-    packet.flags[k] = 0;
-  }
+  for (int k = 0; k < kLanes; ++k) above[k] = height[k] > 0.0 ? -1 : 0;
 }
 
 struct RayCounts {
@@ -103,54 +94,25 @@ struct RayCounts {
   std::size_t rays = 0;
 };
 
-/// The packet's rays one by one, as a plain use of Embree would trace them.
-void trace_singly(const RayScene& rays, const int* valid, RTCIntersectContext& context, RTCRay16& packet) {
-  for (int k = 0; k < kLanes; ++k) {
-    if (!valid[k]) continue;
-    RTCRay ray{};
-    ray.org_x = packet.org_x[k], ray.org_y = packet.org_y[k], ray.org_z = packet.org_z[k];
-    ray.dir_x = packet.dir_x[k], ray.dir_y = packet.dir_y[k], ray.dir_z = packet.dir_z[k];
-    ray.tfar = packet.tfar[k];
-    ray.mask = packet.mask[k];
-    rtcOccluded1(rays.impl().casters, &context, &ray);
-    packet.tfar[k] = ray.tfar;
-  }
-}
-
-/// `all`: also trace what is below the horizon, for the unblocked count.
-RayCounts trace_receiver(const RayScene& rays, const detail::RayStart& x, const LocalLight& light,
-                         const StratumTable& table, std::uint32_t key, bool all, bool packets) {
+/// The packet's rays all start at the receiver. `all`: also trace what is below the horizon, for the unblocked count.
+RayCounts trace_receiver(const RayScene& rays, const Aim& aim, const StratumTable& table, std::uint32_t key,
+                         bool all, detail::Coherence coherence, detail::RayPacket& packet) {
   RayCounts counts;
-  Aim aim;
-  alignas(64) RTCRay16 packet;
-  alignas(64) int valid[kLanes];
-  start_packet(x, packet);
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  const float end = ray_end(glm::dot(x.origin - light.center, light.normal));
+  alignas(64) int above[kLanes];
   for (int first = 0; first < table.strata.count(); first += kLanes) {
-    aim_at_samples(x, light, table, key, first, aim);
+    aim_at_samples(aim, table, key, first, packet, above);
     const int count = std::min(kLanes, table.strata.count() - first);
     int lanes = 0;
     for (int k = 0; k < kLanes; ++k) {
-      valid[k] = k < count && (all || aim.above[k]) ? -1 : 0;
-      lanes -= valid[k];
-      packet.dir_x[k] = aim.x[k];
-      packet.dir_y[k] = aim.y[k];
-      packet.dir_z[k] = aim.z[k];
-      packet.tfar[k] = end;
+      packet.wanted[k] = k < count && (all || above[k]) ? -1 : 0;
+      lanes -= packet.wanted[k];
     }
     if (lanes == 0) continue;
     counts.rays += static_cast<std::size_t>(lanes);
-    if (packets)
-      rtcOccluded16(valid, rays.impl().casters, &context, &packet);
-    else
-      trace_singly(rays, valid, context, packet);
+    detail::find_occluded(rays, packet, coherence);
     for (int k = 0; k < kLanes; ++k) {
-      const int open =
-          valid[k] & (packet.tfar[k] >= 0.0f ? -1 : 0);  // Embree sets tfar to -infinity at a hit
-      counts.visible -= open & aim.above[k];
+      const int open = packet.wanted[k] & ~packet.occluded[k];
+      counts.visible -= open & above[k];
       counts.unblocked -= open;
     }
   }
@@ -175,8 +137,9 @@ ReferenceResult trace_reference(const RayScene& rays, const LightShape& shape, c
   }
   const auto start = std::chrono::steady_clock::now();
   const StratumTable table(options.samples);
-  const LocalLight light = local_light(area_light(shape), rays.frame());
-  const DiskLight plane = disk_around(shape);
+  const AreaLight light = area_light(shape);
+  const detail::Coherence coherence =
+      options.packets ? detail::Coherence::kCoherent : detail::Coherence::kSingly;
   ReferenceResult out;
   out.samples = table.strata.count();
   out.visibility.assign(indices.size(), 1.0f);
@@ -187,14 +150,17 @@ ReferenceResult trace_reference(const RayScene& rays, const LightShape& shape, c
   detail::for_each_receiver(rays.arena(), indices.size(), progress, [&](std::size_t i) {
     const std::uint32_t receiver = indices[i];
     if (!receivers.is_present(receiver)) return;
-    if (is_behind(plane, receivers.points[receiver])) {
+    if (light.is_behind(receivers.points[receiver])) {
       out.visibility[i] = 0.0f;
       if (with_unoccluded) out.unoccluded[i] = 0.0f;
       return;
     }
+    detail::RayPacket packet;
+    packet.endless = light.distant;
+    for (int k = 0; k < kLanes; ++k) packet.set_start(k, detail::start_of(receivers, receiver));
     const RayCounts counts =
-        trace_receiver(rays, detail::ray_start(receivers, receiver, rays.frame()), light, table,
-                       key_of(receivers, receiver, options.seed), all, options.packets);
+        trace_receiver(rays, Aim(light, receivers, receiver), table,
+                       key_of(receivers, receiver, options.seed), all, coherence, packet);
     const int visible = receivers.has_normals() ? counts.visible : counts.unblocked;
     out.visibility[i] = static_cast<float>(visible) * per_sample;
     if (with_unoccluded) out.unoccluded[i] = static_cast<float>(counts.unblocked) * per_sample;

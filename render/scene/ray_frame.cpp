@@ -4,9 +4,8 @@
 #include <cmath>
 
 namespace penumbra {
-namespace {
 
-RayFrame frame_of(const Bounds& bounds) {
+RayFrame frame_around(const Bounds& bounds) {
   constexpr double kLargestExponent = 1000.0;  // of a scale that does not overflow
   if (bounds.empty()) return {};
   const Vec3 half = 0.5 * bounds.high - 0.5 * bounds.low;
@@ -15,15 +14,13 @@ RayFrame frame_of(const Bounds& bounds) {
   return {bounds.center(), std::exp2(std::min(exponent, kLargestExponent))};
 }
 
-}  // namespace
-
 RayFrame ray_frame(const Scene& scene) {
   const Bounds casters = scene.caster_bounds();
-  return casters.empty() ? frame_of_all_objects(scene) : frame_of(casters);
+  return casters.empty() ? frame_of_all_objects(scene) : frame_around(casters);
 }
 
 RayFrame frame_of_all_objects(const Scene& scene) {
-  return frame_of(scene.bounds());
+  return frame_around(scene.bounds());
 }
 
 }  // namespace penumbra

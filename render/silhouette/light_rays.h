@@ -14,16 +14,11 @@ namespace penumbra::detail {
 struct RayTask {
   std::uint32_t index;       ///< of the receiver at which it starts
   glm::dvec2 aim;            ///< on the unit disk
-  bool step_back = false;    ///< start nearer to the surface, see below
   bool free = false;         ///< the answer
   std::size_t receiver = 0;  ///< of the tile, for whoever asks
 };
 
-/// Traces from the surface points, moved by the offset, to the disk.
-///
-/// Rays are float: where a caster's face is within a rounding of the receiver, either answer may come out.
-/// With `step_back` a ray starts 8/10 of the offset further back along its way, still above the surface it
-/// leaves and many roundings beyond the receiver, so that what is found free is free for the receiver too.
+/// Traces from the receivers to the disk (rays/ray_packets.h).
 void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light,
                  std::span<RayTask> tasks);
 

@@ -21,13 +21,11 @@ constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that s
 
 /// In place, member by member: a task made elsewhere and copied is read in wider pieces than it was written
 /// in, for which the processor waits; with what else was copied so, a twentieth of a simple scene's time.
-void add_task(std::vector<RayTask>& tasks, std::uint32_t index, const glm::dvec2& aim, bool step_back,
-              std::size_t receiver) {
+void add_task(std::vector<RayTask>& tasks, std::uint32_t index, const glm::dvec2& aim, std::size_t receiver) {
   RayTask& task = tasks.emplace_back();
   task.index = index;
   task.aim.x = aim.x;
   task.aim.y = aim.y;
-  task.step_back = step_back;
   task.receiver = receiver;
 }
 
@@ -176,7 +174,7 @@ void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) co
     return;
   }
   w.visible_area.compute(w.clipped, part, options_.rows, w.sliver, w.areas[i]);
-  add_task(w.tasks, w.receivers[i].index, w.areas[i].aims[0], false, i);
+  add_task(w.tasks, w.receivers[i].index, w.areas[i].aims[0], i);
   w.counts.segments += w.clipped.segments.size();
   ++w.counts.integrated;
   w.counts.slabs += w.areas[i].method == AreaMethod::kSlabs ? 1 : 0;
@@ -228,7 +226,7 @@ void Evaluation::judge(std::size_t i, Workspace& w) const {
     result.complexities = 1;
     result.aims[0] = result.aims[1] = middle;
     result.method = AreaMethod::kChain;
-    add_task(w.tasks, r.index, middle, w.certain[i] != 0, i);
+    add_task(w.tasks, r.index, middle, i);
   } else if (options_.integrate) {
     integrate(i, part, w);
   } else {
@@ -249,7 +247,7 @@ void Evaluation::light_up(Workspace& w) const {
 /// left to a plain ray if not.
 void Evaluation::certify(const RayTask& task, Workspace& w) const {
   if (!task.free && !is_hidden(scene_, rays_, receivers_, light_, task.index)) {
-    add_task(w.second_tasks, task.index, task.aim, false, task.receiver);
+    add_task(w.second_tasks, task.index, task.aim, task.receiver);
     return;
   }
   out_.visibility[task.index] = task.free ? 1.0f : 0.0f;
@@ -271,7 +269,7 @@ void Evaluation::decide(Workspace& w) const {
     else if (task.free || f.aims[1] == f.aims[0])
       settle(task);
     else
-      add_task(w.second_tasks, task.index, f.aims[1], false, task.receiver);
+      add_task(w.second_tasks, task.index, f.aims[1], task.receiver);
   }
   trace_tasks(rays_, receivers_, light_, w.second_tasks);
   for (const RayTask& task : w.second_tasks) settle(task);

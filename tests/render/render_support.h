@@ -194,17 +194,21 @@ inline SegmentHit segment_triangle(const Vec3& x, const Vec3& p, const Vec3& a, 
   return {t, std::min({u, v, 1.0 - u - v})};
 }
 
-/// Whether a caster hides p from x, and whether that is clear (no triangle's border within `margin` of the
+/// Whether a caster hides p from x, which lies on one of its faces or on none, and whether that is clear (no triangle's border within `margin` of the
 /// segment).
 struct Blocked {
   bool hidden = false, clear = true;
 };
-inline Blocked is_blocked(const Scene& scene, const Vec3& x, const Vec3& p, double margin = 1e-5) {
+inline Blocked is_blocked(const Scene& scene, const Vec3& x, const Vec3& p, double margin = 1e-5,
+                          std::int32_t own_object = -1, std::uint32_t own_face = 0) {
   Blocked out;
   for (const SceneObject& object : scene.objects) {
     if (!object.casts) continue;
     const auto points = object.mesh.positions();
     for (const IndexedTriangle& t : object.mesh.triangles()) {
+      if (own_object >= 0 && &object == &scene.objects[static_cast<std::size_t>(own_object)] &&
+          &t == &object.mesh.triangles()[own_face])
+        continue;
       const SegmentHit hit = segment_triangle(x, p, points[t[0]], points[t[1]], points[t[2]]);
       if (hit.at > 1.0) continue;
       out.hidden = out.hidden || hit.margin >= 0.0;

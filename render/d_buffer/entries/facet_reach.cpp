@@ -16,13 +16,12 @@ namespace {
 
 /// Rays pass an edge at this distance on its lit side, in the frame of the rays: above the noise of floats,
 /// which would make the edge hide itself, and below any feature that counts.
-constexpr double kClearance = 2.0 * kRayOffset;
+constexpr double kClearance = 2e-5;
 /// A hit nearer than this part of the way to the edge hides the edge. A later one is a face at the edge
 /// itself.
-constexpr float kBefore = 1.0f - 1e-3f;
+constexpr double kBefore = 1.0 - 1e-3;
 
 constexpr double kEndless = -std::numeric_limits<double>::infinity();
-constexpr float kForever = std::numeric_limits<float>::infinity();
 
 class Prober {
  public:
@@ -43,11 +42,11 @@ class Prober {
   double end(const Probe& probe, SupportKind kind) const {
     const std::optional<Ray> ray = aim(probe, kind);
     if (!ray) return kEndless;
-    const std::optional<RayHit> hit = first_hit(rays_, ray->from, ray->way, kForever);
+    const std::optional<RayHit> hit = first_hit(rays_, *ray);
     if (!hit) return kEndless;
     if (hit->distance < kBefore) return FacetReach::kHidden;
     const Vec3 contact = contact_of(probe);
-    return divided(space_.homogeneous(contact + double{hit->distance} * (probe.target - contact))).h;
+    return divided(space_.homogeneous(contact + hit->distance * (probe.target - contact))).h;
   }
 
   /// Leaves of an edge that crosses the light's plane its part in front.
@@ -58,13 +57,8 @@ class Prober {
   }
 
  private:
-  /// In the frame of the rays.
-  struct Ray {
-    glm::vec3 from, way;
-  };
   /// None where the contact lies on the target's own line along the rim.
   std::optional<Ray> aim(const Probe& probe, SupportKind kind) const {
-    const RayFrame& frame = rays_.frame();
     const Vec3 out = outward(probe), contact = contact_of(probe);
     // The plane that touches the rim at the contact and passes the target; its normal points away from the
     // disk.
@@ -74,9 +68,8 @@ class Prober {
     beyond = beyond / size;
     if (glm::dot(beyond, out) < 0.0) beyond = -beyond;
     const Vec3 lit = kind == SupportKind::kPenumbra ? -beyond : beyond;
-    const Vec3 from = frame.to_local(contact);
-    const Vec3 way = frame.to_local(probe.target) + kClearance * lit - from;
-    return Ray{glm::vec3(from), glm::vec3(way)};
+    const Vec3 way = probe.target - contact + kClearance / rays_.frame().scale * lit;
+    return Ray{.from = {.point = contact}, .way = way, .endless = true};
   }
 
   Vec3 outward(const Probe& probe) const {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "tests/render/render_support.h"
 
 namespace penumbra {
@@ -19,18 +17,10 @@ struct Plates {
   Plates() { scene.objects.push_back({"floor", testing::rectangle(-9, 9, -9, 9, 8), Vec3(0.8), false}); }
 };
 
-glm::vec3 local(const RayScene& rays, const Vec3& world) {
-  return glm::vec3(rays.frame().to_local(world));
-}
-
 /// Ray k from (k/4 - 2.05, 0, 4) along -z as far as `to`.
-void aim(const RayScene& rays, double to, RayPacket& packet) {
+void aim(double to, RayPacket& packet) {
   for (std::size_t k = 0; k < RayPacket::kRays; ++k) {
-    const double x = 0.25 * static_cast<double>(k) - 2.05;
-    const glm::vec3 from = local(rays, {x, 0, 4}), way = local(rays, {x, 0, to}) - from;
-    packet.from_x[k] = from.x, packet.from_y[k] = from.y, packet.from_z[k] = from.z;
-    packet.way_x[k] = way.x, packet.way_y[k] = way.y, packet.way_z[k] = way.z;
-    packet.end[k] = 1.0f;
+    packet.set(k, {{.point = {0.25 * static_cast<double>(k) - 2.05, 0, 4}}, {0, 0, to - 4.0}});
     packet.wanted[k] = k % 5 == 0 ? 0 : -1;
   }
 }
@@ -40,9 +30,9 @@ TEST(RayPackets, TellWhichWantedRaysAreOccluded) {
   const RayScene rays(plates.scene, 1);
   RayPacket packet;
   int occluded = 0;
-  for (const Coherence coherence : {Coherence::kCoherent, Coherence::kIncoherent})
+  for (const Coherence coherence : {Coherence::kCoherent, Coherence::kIncoherent, Coherence::kSingly})
     for (const double to : {0.5, 2.5, 3.5}) {  // beyond both plates, one, none
-      aim(rays, to, packet);
+      aim(to, packet);
       detail::find_occluded(rays, packet, coherence);
       for (std::size_t k = 0; k < RayPacket::kRays; ++k) {
         const double x = 0.25 * static_cast<double>(k) - 2.05;
@@ -57,22 +47,19 @@ TEST(RayPackets, TellWhichWantedRaysAreOccluded) {
 TEST(RayPackets, FirstHitIsTheNearestFaceOfACaster) {
   const Plates plates;
   const RayScene rays(plates.scene, 1);
-  const auto hit = [&](double x, double y, float end) {
-    return detail::first_hit(rays, local(rays, {x, y, 9}), local(rays, {x, y, 8}) - local(rays, {x, y, 9}),
-                             end);
+  const auto hit = [&](double x, double y, double way, bool endless = true) {
+    return detail::first_hit(rays, {{.point = {x, y, 9}}, {0, 0, -way}, endless});
   };
-  constexpr float kForever = std::numeric_limits<float>::infinity();
-  const auto near = hit(0.5, 0.2, kForever), far = hit(-0.5, 0.2, kForever),
-             other = hit(-0.5, -0.8, kForever);
+  const auto near = hit(0.5, 0.2, 1), far = hit(-0.5, 0.2, 2), other = hit(-0.5, -0.8, 1);
   ASSERT_TRUE(near && far && other);
   EXPECT_EQ(near->object, 1u);
-  EXPECT_NEAR(near->distance, 6.0f, 1e-5f);
+  EXPECT_NEAR(near->distance, 6.0, 1e-12);
   EXPECT_EQ(far->object, 0u);
-  EXPECT_NEAR(far->distance, 7.0f, 1e-5f);
+  EXPECT_NEAR(far->distance, 3.5, 1e-12);
   EXPECT_EQ(far->face, 1u);
   EXPECT_EQ(other->face, 0u) << "on the other side of the diagonal";
-  EXPECT_FALSE(hit(-0.5, 0.2, 6.5f)) << "it ends before the plate";
-  EXPECT_FALSE(hit(-3.0, 0.2, kForever)) << "the floor does not cast";
+  EXPECT_FALSE(hit(-0.5, 0.2, 6.5, false)) << "it ends before the plate";
+  EXPECT_FALSE(hit(-3.0, 0.2, 1)) << "the floor does not cast";
 }
 
 }  // namespace

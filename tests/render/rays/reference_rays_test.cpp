@@ -20,7 +20,7 @@ DoubleCount count_in_double(const Scene& scene, const SurfaceBuffer& surface, st
                             int samples, std::uint64_t seed) {
   const LightFrame f = light_frame(testing::light_of(scene));
   const detail::Strata strata(samples);
-  const Vec3 x = surface.position[pixel] + kRayOffset / ray_frame(scene).scale * surface.normal[pixel];
+  const Vec3& x = surface.position[pixel];
   DoubleCount out;
   for (int i = 0; i < strata.count(); ++i) {
     const detail::DiskPoint s = detail::disk_sample(
@@ -30,7 +30,8 @@ DoubleCount count_in_double(const Scene& scene, const SurfaceBuffer& surface, st
     const Vec3 p = testing::light_of(scene).center +
                    testing::light_of(scene).radius * (double{s.x} * f.u + double{s.y} * f.v);
     if (glm::dot(surface.normal[pixel], p - x) <= 0.0) continue;
-    const testing::Blocked b = testing::is_blocked(scene, x, p);
+    const testing::Blocked b =
+        testing::is_blocked(scene, x, p, 1e-5, surface.object[pixel], surface.face[pixel]);
     out.visible += !b.hidden;
     out.unsure += !b.clear;
   }

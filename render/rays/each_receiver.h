@@ -1,4 +1,4 @@
-// Where rays of a receiver start, and how receivers are shared among threads.
+// How receivers are shared among threads.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -6,26 +6,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <glm/vec3.hpp>
 #include <mutex>
 
+#include "penumbra/mesh/error.h"
 #include "penumbra/mesh/progress.h"
-#include "penumbra/render/receivers/receivers.h"
-#include "render/rays/ray_scene.h"
 
 namespace penumbra::detail {
-
-/// In the rays' frame, float. The normal is 0 where the receiver has none.
-struct RayStart {
-  glm::vec3 origin, normal;
-};
-
-/// On a surface the start is moved off it by kRayOffset along the normal.
-inline RayStart ray_start(const Receivers& receivers, std::size_t i, const RayFrame& frame) {
-  const Vec3 p = frame.to_local(receivers.points[i]);
-  if (!receivers.has_normals()) return {glm::vec3(p), glm::vec3(0.0f)};
-  return {glm::vec3(p + kRayOffset * receivers.normals[i]), glm::vec3(receivers.normals[i])};
-}
 
 /// Runs `body(i)` for i = 0 ... count - 1 on the threads, in blocks, and reports progress. Throws Cancelled.
 template <class Body>

@@ -1,0 +1,164 @@
+// Rays against the oracle, which decides every face by exact predicates: where float alone would be wrong.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/rays/ray_packets.h"
+#include "tests/oracle/oracle.h"
+#include "tests/render/rays/ray_support.h"
+
+namespace penumbra {
+namespace {
+
+using testing::Random;
+using testing::RayCase;
+using testing::RayJudge;
+
+/// A floor with a wall that rises from its middle, both of 2 × 2, turned and moved.
+struct Corner {
+  Corner(const testing::Motion& motion_, bool in_one_mesh) : motion(motion_) {
+    const std::vector<Vec3> p = motion({{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {0, 0, -1}, {0, 0, 1},
+                                        {0, 1, -1}, {0, 1, 1}});
+    const std::vector<IndexedTriangle> floor{{0, 1, 5}, {0, 5, 4}, {4, 5, 2}, {4, 2, 3}}, wall{{4, 5, 7}, {4, 7, 6}};
+    if (in_one_mesh) {
+      std::vector<IndexedTriangle> all = floor;
+      all.insert(all.end(), wall.begin(), wall.end());
+      meshes.push_back(testing::mesh_of(p, all));
+    } else {
+      meshes.push_back(testing::mesh_of({p[0], p[1], p[2], p[3]}, {{0, 1, 2}, {0, 2, 3}}));
+      meshes.push_back(testing::mesh_of(p, wall));
+    }
+  }
+  testing::Motion motion;
+  std::vector<TriangleMesh> meshes;
+};
+
+/// Receivers on the floor, ever closer to the wall, that look over it and through it.
+TEST(ExactRays, AgreeAtAConcaveEdge) {
+  Random random(401);
+  for (const bool in_one_mesh : {true, false})
+    for (int turn = 0; turn < 3; ++turn) {
+      const Corner corner(turn == 0 ? testing::Motion() : testing::Motion::random(random), in_one_mesh);
+      RayJudge judge(corner.meshes);
+      for (int i = 0; i < 4'000; ++i) {
+        const double distance = random.spread(1e-13, 0.5), z = random.uniform(-0.9, 0.9);
+        // Of the four triangles of the floor, or the two.
+        const std::uint32_t face = in_one_mesh ? (distance > 0.5 * (z + 1.0) ? 3 : 2) : (distance > z ? 1 : 0);
+        const Vec3 x(distance, 0.0, z);
+        const double over = random.spread(1e-3, 10.0);  // height at which the ray passes the wall
+        const Vec3 way = Vec3(-1.0, over, random.uniform(-0.2, 0.2)) *
+                         (random.uniform(0.0, 1.0) < 0.5 ? 3.0 : 0.5 * distance);
+        const bool known = random.uniform(0.0, 1.0) < 0.7;
+        judge.add({.from = {corner.motion(x), known ? 0 : -1, face}, .way = corner.motion.turned(way)});
+      }
+      judge.finish();
+      EXPECT_EQ(judge.wrong(), 0u) << "turn " << turn << (in_one_mesh ? ", one mesh" : ", two");
+      EXPECT_GT(judge.blocked(), 1'000u);
+      EXPECT_GT(judge.free(), 1'000u);
+    }
+}
+
+/// Boxes of some sizes, each turned its own way.
+std::vector<TriangleMesh> boxes(Random& random, int count) {
+  std::vector<TriangleMesh> out;
+  for (int i = 0; i < count; ++i) {
+    const testing::Motion motion = testing::Motion::random(random);
+    const Vec3 half{random.uniform(0.1, 0.5), random.uniform(0.1, 0.5), random.uniform(0.1, 0.5)};
+    const TriangleMesh box = make_box(random.point(1.0), half);
+    std::vector<Vec3> p(box.positions().begin(), box.positions().end());
+    out.push_back(testing::mesh_of(motion.turned(p), {box.triangles().begin(), box.triangles().end()}));
+  }
+  return out;
+}
+
+/// Rays from faces, from the air and from afar that pass edges closely on either side, to lights at any distance.
+TEST(ExactRays, AgreeBesideEdges) {
+  Random random(402);
+  const double far[] = {1e1, 1e3, 1e5, 1e7, 1e11};
+  for (int scene = 0; scene < 4; ++scene) {
+    const std::vector<TriangleMesh> meshes = boxes(random, 5);
+    RayJudge judge(meshes);
+    for (int i = 0; i < 12'000; ++i) {
+      RayCase ray;
+      ray.from = testing::random_start(random, meshes);
+      if (i % 4 == 0) ray.from = {.point = random.direction() * random.spread(2.0, 1e6)};
+      const Vec3 target = testing::beside_random_edge(random, meshes, random.spread(1e-12, 1e-3));
+      ray.way = target - ray.from.point;
+      ray.endless = i % 3 == 0;
+      if (!ray.endless)
+        ray.way *= i % 2 ? random.uniform(1.01, 3.0) : far[i % 5] / glm::length(ray.way);
+      judge.add(ray);
+    }
+    judge.finish();
+    EXPECT_EQ(judge.wrong(), 0u) << "scene " << scene;
+    EXPECT_GT(judge.blocked(), 1'000u);
+    EXPECT_GT(judge.free(), 1'000u);
+  }
+}
+
+/// Light points just before a face, just behind it and in it.
+TEST(ExactRays, EndExactlyAtTheLight) {
+  Random random(403);
+  const std::vector<TriangleMesh> meshes = boxes(random, 3);
+  RayJudge judge(meshes);
+  for (int i = 0; i < 20'000; ++i) {
+    RayCase ray;
+    ray.from = {.point = random.point(2.0)};
+    const testing::FacePoint at = testing::random_face_point(random, meshes);
+    ray.way = at.point + random.spread(1e-12, 1e-2) * (i % 2 ? 1.0 : -1.0) * at.normal - ray.from.point;
+    judge.add(ray);
+  }
+  judge.finish();
+  EXPECT_EQ(judge.wrong(), 0u);
+  EXPECT_GT(judge.blocked(), 1'000u);
+  EXPECT_GT(judge.free(), 1'000u);
+}
+
+/// A lamp in a wall's own plane, and receivers on the wall: nothing of the wall hides the lamp.
+TEST(ExactRays, ALampInAWallsPlaneLightsTheWall) {
+  Random random(404);
+  for (int turn = 0; turn < 4; ++turn) {
+    const testing::Motion motion = turn == 0 ? testing::Motion() : testing::Motion::random(random);
+    const TriangleMesh wall = testing::mesh_of(
+        motion({{-1, -1, 0}, {0, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}}),
+        {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}});
+    Scene scene;
+    scene.objects.push_back({"wall", wall, Vec3(0.8), true});
+    const RayScene rays(scene, 1);
+    detail::RayPacket packet;
+    for (int i = 0; i < 4'000; ++i) {
+      const std::size_t k = static_cast<std::size_t>(i) % detail::RayPacket::kRays;
+      const Vec3 x = motion({random.uniform(-1, 1), random.uniform(-1, 1), 0}),
+                 q = motion({random.uniform(-3, 3), random.uniform(-3, 3), random.spread(1e-12, 1e-3)});
+      packet.set(k, {{.point = x}, q - x});  // no face is known
+      packet.wanted[k] = -1;
+      if (k + 1 < detail::RayPacket::kRays) continue;
+      detail::find_occluded(rays, packet, detail::Coherence::kCoherent);
+      for (std::size_t j = 0; j < detail::RayPacket::kRays; ++j) ASSERT_FALSE(packet.is_occluded(j)) << "turn " << turn;
+    }
+  }
+}
+
+/// A ray that grazes both faces of an edge is the one thing that float decides. Few do.
+TEST(ExactRays, AgreeOnSmoothSilhouettesButForFew) {
+  Random random(405);
+  const std::vector<TriangleMesh> meshes{make_icosphere({0.2, 0.1, -0.3}, 1.0, 5)};
+  RayJudge judge(meshes);
+  for (int i = 0; i < 40'000; ++i) {
+    const Vec3 x = Vec3(0.2, 0.1, -0.3) + random.direction() * random.spread(1.1, 10.0);
+    const Vec3 center = Vec3(0.2, 0.1, -0.3) - x;
+    const Vec3 across = glm::normalize(glm::cross(center, random.direction()));
+    const double sine = (1.0 + random.uniform(-2e-3, 1e-4)) / glm::length(center);  // where the outline is
+    judge.add({.from = {.point = x},
+               .way = 4.0 * (std::sqrt(1.0 - sine * sine) * center + sine * glm::length(center) * across),
+               .endless = i % 2 == 0});
+  }
+  judge.finish();
+  EXPECT_LE(judge.wrong(), 2u);
+  EXPECT_GT(judge.blocked(), 5'000u);
+  EXPECT_GT(judge.free(), 5'000u);
+  std::printf("%zu of %zu rays along outlines differ\n", judge.wrong(), judge.blocked() + judge.free());
+}
+
+}  // namespace
+}  // namespace penumbra
