@@ -46,7 +46,6 @@ struct DBuffer::Impl {
   std::vector<TexturePicture> textures() const;
 
   void find_casters_that_cannot_occlude(const DiskLight& light);
-  detail::LightSpace light_space(const CircularLight& light) const;
   void prepare_layers(const detail::DBufferView& view, const DBufferOptions& options);
 
   gl::Context& context;
@@ -91,14 +90,6 @@ void DBuffer::Impl::find_casters_that_cannot_occlude(const DiskLight& light) {
   }
 }
 
-/// About where most receivers are. Where the light's plane runs through them, the origin is moved in front of it by a
-/// part of how far they spread, which sets no limit to what is seen.
-detail::LightSpace DBuffer::Impl::light_space(const CircularLight& light) const {
-  const detail::ReceiverMiddle& receivers = shading.middle();
-  const double least = receivers.reach > 0.0 ? 0x1p-6 * receivers.reach : 1.0;
-  return {light, receivers.middle, least};
-}
-
 /// Textures, and the state that drawing into them needs.
 void DBuffer::Impl::prepare_layers(const detail::DBufferView& view, const DBufferOptions& options) {
   const int count = std::max(1, static_cast<int>(view.targets.size()));
@@ -124,7 +115,7 @@ DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions&
   if (options.center == CenterTest::kRay) shading.trace_center(light);
   clock.finish("center");
   find_casters_that_cannot_occlude(light);
-  const detail::LightSpace space = light_space(light);
+  const detail::LightSpace space(light, shading.middle().middle, shading.middle().least_depth());
   const detail::ReceiversInLight placed(surface, space);
   const detail::CastersInLight seen = detail::casters_in_light(passes.casters(), space);
   const detail::DBufferView view = detail::choose_view(space, passes.casters(), seen, placed, options.size);

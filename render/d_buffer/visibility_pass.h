@@ -20,6 +20,7 @@
 #include "render/d_buffer/resampler.h"
 #include "render/d_buffer/view/receivers_in_light.h"
 #include "render/d_buffer/view/view.h"
+#include "render/receivers/receiver_middle.h"
 
 namespace penumbra::detail {
 

@@ -5,9 +5,9 @@
 
 namespace penumbra {
 
-LightProjection::LightProjection(const Source& light, const Vec3& middle, double least_depth)
+LightProjection::LightProjection(const AreaLight& light, const Vec3& middle, double least_depth)
     : axes_(light.axes), center_(light.center), origin_(middle), spread_(light.half) {
-  if (light.weight == 0.0) return;
+  if (light.distant) return;
   const double found = glm::dot(middle - center_, axes_.w), depth = std::max(found, least_depth);
   origin_ += (depth - found) * axes_.w;
   nearness_ = 1.0 / depth;

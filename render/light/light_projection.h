@@ -15,24 +15,15 @@
 
 #include <glm/vec2.hpp>
 
-#include "penumbra/volumes/disk_light.h"
+#include "render/light/area_light.h"
 
 namespace penumbra {
 
 class LightProjection {
  public:
-  /// A flat light; for what `weight` means see CircularLight.
-  struct Source {
-    /// Unit vectors.
-    LightFrame axes;
-    Vec3 center;
-    double weight;
-    /// Scene units; of a distant light tangents.
-    glm::dvec2 half;
-  };
   /// The origin is `middle`; of a near light it is moved away from the light's plane where it is not
   /// `least_depth` > 0 in front of it.
-  LightProjection(const Source& light, const Vec3& middle, double least_depth);
+  LightProjection(const AreaLight& light, const Vec3& middle, double least_depth);
 
   const LightFrame& axes() const { return axes_; }
   const Vec3& origin() const { return origin_; }
@@ -47,6 +38,8 @@ class LightProjection {
   /// The depth before the light over that of the origin: 0 on the light's plane, negative behind it; 1 under a
   /// distant light.
   double weight(const Vec3& local) const { return 1.0 + nearness_ * local.z; }
+  /// w of the light's plane: -infinity of a distant light.
+  double plane_depth() const { return -1.0 / nearness_; }
   /// q, not divided by the weight.
   glm::dvec2 place(const Vec3& local) const { return glm::dvec2(local) + tilt_ * local.z; }
   /// The plane through a point with a unit normal, as the coefficients of (q, h): normal · (p - point) is this ·

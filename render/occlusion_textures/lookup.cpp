@@ -40,14 +40,15 @@ void hide(OcclusionCombine rule, const double* __restrict share, const double* a
 
 /// Where a slice lies, in numbers that a lookup needs.
 struct Plane {
-  double depth;
-  glm::dvec2 texels_per_unit;  ///< of the light's frame, on this plane
+  double depth;                ///< w
+  glm::dvec2 texels_per_unit;  ///< on this plane
+  glm::dvec2 origin;           ///< texels at u = v = 0
 };
 
-/// A part of the light, and where texel (0, 0) is on its plane.
+/// A part of the light, and half of what it fills at unit depth.
 struct LightBox {
   KernelPart part;
-  glm::dvec2 half, origin;
+  glm::dvec2 spread;
 };
 
 /// The light as receivers see it on a plane: a box of texels for each. Those are at least a texel wide: a
@@ -55,13 +56,14 @@ struct LightBox {
 PENUMBRA_VECTOR_CLONES
 void project_light(const SliceReceivers& __restrict from, const Plane& plane, const LightBox& light,
                    TexelBoxes& __restrict boxes) {
-  const glm::dvec2 unit = plane.texels_per_unit, half = light.half * unit, origin = light.origin;
+  const glm::dvec2 unit = plane.texels_per_unit, spread = light.spread * unit, origin = plane.origin;
   const KernelPart part = light.part;
   const double depth = plane.depth;
   for (std::size_t i = 0; i < from.count; ++i) {
-    const double near = depth / from.z[i];
-    const double x = origin.x + from.x[i] * near * unit.x, y = origin.y + from.y[i] * near * unit.y;
-    const double hx = std::max(half.x * (1.0 - near), 0.5), hy = std::max(half.y * (1.0 - near), 0.5);
+    const double way = (from.w[i] - depth) * from.per_weight[i];
+    const double x = origin.x + (from.u[i] + from.toward_u[i] * way) * unit.x;
+    const double y = origin.y + (from.v[i] + from.toward_v[i] * way) * unit.y;
+    const double hx = std::max(spread.x * way, 0.5), hy = std::max(spread.y * way, 0.5);
     boxes.x0[i] = x + part.x0 * hx;
     boxes.x1[i] = x + part.x1 * hx;
     boxes.y0[i] = y + part.y0 * hy;
@@ -82,14 +84,15 @@ PENUMBRA_VECTOR_CLONES
 void fade_in(const SliceReceivers& receivers, const Plane& plane, double per_thickness,
              double* __restrict share) {
   for (std::size_t i = 0; i < receivers.count; ++i) {
-    const double fade = std::clamp((receivers.z[i] - plane.depth) * per_thickness, 0.0, 1.0);
+    const double fade = std::clamp((receivers.w[i] - plane.depth) * per_thickness, 0.0, 1.0);
     share[i] = fade * std::clamp(share[i], 0.0, 1.0);
   }
 }
 
-/// On the light's plane.
-glm::dvec2 texels_per_unit(const SliceFrustum& frustum, const OcclusionOptions& options) {
-  return static_cast<double>(options.texture_size) / (frustum.high - frustum.low);
+Plane plane_of(const SliceFrustum& frustum, int slice, const OcclusionOptions& options) {
+  const double depth = frustum.plane(slice), weight = frustum.weight(depth);
+  const glm::dvec2 texels = static_cast<double>(options.texture_size) / (frustum.high - frustum.low);
+  return {depth, texels / weight, (frustum.slide * depth / weight - frustum.low) * texels};
 }
 
 template <class Filter>
@@ -99,14 +102,10 @@ class FilteredSlices : public OcclusionLookup {
                  const OcclusionOptions& options)
       : filters_(slices.size()),
         parts_(kernel_parts(space.light, options.kernel)),
-        half_(space.half),
-        origin_(-frustum.low * texels_per_unit(frustum, options)),
+        spread_(space.projection.spread()),
         per_thickness_(1.0 / frustum.thickness),
         rule_(options.combine) {
-    for (int i = 0; i < frustum.count; ++i) {
-      const double depth = frustum.plane(i);
-      planes_.push_back({depth, texels_per_unit(frustum, options) / (1.0 + frustum.narrowing * depth)});
-    }
+    for (int i = 0; i < frustum.count; ++i) planes_.push_back(plane_of(frustum, i, options));
     tbb::parallel_for(std::size_t{0}, slices.size(), [&](std::size_t i) {
       if (!slices[i].empty()) filters_[i] = std::make_unique<Filter>(slices[i], options.texture_size);
     });
@@ -116,7 +115,7 @@ class FilteredSlices : public OcclusionLookup {
     Work work;
     auto& left = receivers.visibility;
     std::copy_n(receivers.above.begin(), receivers.count, left.begin());
-    const double* farthest = std::max_element(receivers.z.data(), receivers.z.data() + receivers.count);
+    const double* farthest = std::max_element(receivers.w.data(), receivers.w.data() + receivers.count);
     for (std::size_t i = 0; i < planes_.size() && receivers.count && planes_[i].depth < *farthest; ++i) {
       if (!filters_[i]) continue;
       find_shares(receivers, i, work);
@@ -142,7 +141,7 @@ class FilteredSlices : public OcclusionLookup {
     work.boxes.count = receivers.count;
     std::fill_n(work.share.begin(), receivers.count, 0.0);
     for (const KernelPart& part : parts_) {
-      project_light(receivers, planes_[slice], {part, half_, origin_}, work.boxes);
+      project_light(receivers, planes_[slice], {part, spread_}, work.boxes);
       filters_[slice]->covered(work.boxes, work.covered.data());
       add_shares(work.boxes, work.covered.data(), part.share, work.share.data());
     }
@@ -152,17 +151,20 @@ class FilteredSlices : public OcclusionLookup {
   std::vector<std::unique_ptr<Filter>> filters_;  ///< none where the slice is empty
   std::vector<Plane> planes_;
   std::vector<KernelPart> parts_;
-  glm::dvec2 half_, origin_;
+  glm::dvec2 spread_;
   double per_thickness_;
   OcclusionCombine rule_;
 };
 
 }  // namespace
 
-void SliceReceivers::add(const Vec3& p, double above_horizon) {
-  x[count] = p.x;
-  y[count] = p.y;
-  z[count] = p.z;
+void SliceReceivers::add(const Vec3& p, const LightProjection& light, double above_horizon) {
+  u[count] = p.x;
+  v[count] = p.y;
+  w[count] = p.z;
+  per_weight[count] = 1.0 / light.weight(p);
+  toward_u[count] = light.tilt().x - light.nearness() * p.x;
+  toward_v[count] = light.tilt().y - light.nearness() * p.y;
   above[count++] = above_horizon;
 }
 

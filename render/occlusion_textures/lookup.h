@@ -1,8 +1,9 @@
 // Occlusion textures, step 5: how much of the light the slices leave, receiver by receiver.
 //
-// In: prefiltered slices, receivers in the light's frame. Out: V. "Occlusion textures" (2006), sections 3.1,
-// 3.3 and 3.4. Seen from a receiver at depth z, the light covers one box on the plane at depth b: the light
-// scaled by 1 - b/z, about the receiver's position scaled by b/z. The mean of the slice's texture over that
+// In: prefiltered slices, receivers. Out: V. "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4. Seen from a
+// receiver the light covers one box on a slice's plane. With Δ the distance of receiver and plane over the receiver's
+// weight (render/light/light_projection.h), its half extents are spread · Δ, and its middle is (u, v) + toward · Δ,
+// toward being the way from the receiver to the light's center for a step of 1 towards the light. The mean of the slice's texture over that
 // box is the part that the slice hides. Slices that end behind the receiver do not count. The one that ends
 // just before it fades in with the receiver's distance to its plane, from 0 to 1 over one slice.
 #pragma once
@@ -26,23 +27,26 @@ struct KernelPart {
 /// One box, or for OcclusionKernel::kDisk of a disk light strips across it.
 std::vector<KernelPart> kernel_parts(const AreaLight& light, OcclusionKernel kernel);
 
-/// Receivers that are looked up together, in the light's frame.
+/// Receivers that are looked up together, in local coordinates.
 struct SliceReceivers {
   static constexpr std::size_t kMost = TexelBoxes::kMost;
   std::size_t count = 0;
-  alignas(64) std::array<double, kMost> x, y, z;
+  alignas(64) std::array<double, kMost> u, v, w;
+  /// 1 over the weight; the way to the light's center for a step of 1 towards the light's plane, times the weight.
+  alignas(64) std::array<double, kMost> per_weight, toward_u, toward_v;
   /// Fraction of the light above the horizon.
   alignas(64) std::array<double, kMost> above;
   /// Out: V.
   alignas(64) std::array<double, kMost> visibility;
-  void add(const Vec3& p, double above_horizon);
+  /// Precondition: p is in front of the light.
+  void add(const Vec3& p, const LightProjection& light, double above_horizon);
 };
 
 /// Visibility at points, as a fraction of the light. One class a filter.
 class OcclusionLookup {
  public:
   virtual ~OcclusionLookup() = default;
-  /// Fills `visibility`. Precondition: every z > 0. Cost O(slices) a receiver, whatever the light's size.
+  /// Fills `visibility`. Cost O(slices) a receiver, whatever the light's size.
   virtual void look_up(SliceReceivers& receivers) const = 0;
   virtual std::size_t bytes() const = 0;
 };

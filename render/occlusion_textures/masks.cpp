@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 
 namespace penumbra::detail {
 namespace {
@@ -19,25 +20,61 @@ std::uint8_t coverage_of(std::uint8_t bits, bool area) {
 
 }  // namespace
 
-OcclusionMasks::OcclusionMasks(const gl::Functions& gl, const std::vector<glm::vec3>& points,
-                               const std::vector<std::uint32_t>& indices, std::vector<MaskRange> casters)
+MaskGeometry mask_geometry(const std::vector<const TriangleMesh*>& meshes,
+                           const std::vector<CasterExtent>& extents, const SliceSpace& space,
+                           const SliceFrustum& frustum) {
+  const glm::dvec2 middle = frustum.low + frustum.high, size = frustum.high - frustum.low;
+  MaskGeometry out;
+  const auto add = [&](const Vec3& p) {
+    const double weight = frustum.weight(p.z);
+    const glm::dvec2 clip = (2.0 * frustum.place(p) - middle * weight) / size;
+    out.vertices.push_back({glm::vec4(glm::dvec4(clip, 0.0, weight)),
+                            static_cast<float>((p.z - frustum.first) / frustum.thickness),
+                            static_cast<float>(space.projection.weight(p))});
+  };
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(out.indices.size());
+    auto vertex = static_cast<std::uint32_t>(out.vertices.size());
+    extents[i].for_each_point(add);
+    if (extents[i].whole)
+      for (const IndexedTriangle& t : meshes[i]->triangles())
+        for (const std::uint32_t v : t) out.indices.push_back(vertex + v);
+    else
+      for (; vertex < out.vertices.size(); ++vertex) out.indices.push_back(vertex);
+    out.ranges.push_back({first, static_cast<std::uint32_t>(out.indices.size()) - first});
+  }
+  return out;
+}
+
+OcclusionMasks::OcclusionMasks(const gl::Functions& gl)
     : gl_(gl),
       program_(gl, {{GL_VERTEX_SHADER, "occlusion_mask.vert.glsl"},
                     {GL_FRAGMENT_SHADER, "occlusion_mask.frag.glsl"}}),
-      points_(gl, Object::Kind::kBuffer),
+      vertices_(gl, Object::Kind::kBuffer),
       indices_(gl, Object::Kind::kBuffer),
       array_(gl, Object::Kind::kVertexArray),
-      framebuffer_(gl, Object::Kind::kFramebuffer),
-      casters_(std::move(casters)) {
+      framebuffer_(gl, Object::Kind::kFramebuffer) {
   gl_.BindVertexArray(array_);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, points_);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(points.size() * sizeof(points[0])), points.data(),
-                 GL_STATIC_DRAW);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, vertices_);
   gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
-  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size() * sizeof(indices[0])),
-                 indices.data(), GL_STATIC_DRAW);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
-  gl_.EnableVertexAttribArray(0);
+  const auto attribute = [&](GLuint index, GLint count, std::size_t at) {
+    gl_.VertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, sizeof(MaskVertex),
+                            reinterpret_cast<const void*>(at));
+    gl_.EnableVertexAttribArray(index);
+  };
+  attribute(0, 4, offsetof(MaskVertex, clip));
+  attribute(1, 1, offsetof(MaskVertex, slice));
+  attribute(2, 1, offsetof(MaskVertex, in_front));
+}
+
+void OcclusionMasks::upload(const MaskGeometry& casters) const {
+  gl_.BindVertexArray(array_);
+  gl_.BindBuffer(GL_ARRAY_BUFFER, vertices_);
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(casters.vertices.size() * sizeof(MaskVertex)),
+                 casters.vertices.data(), GL_STREAM_DRAW);
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(casters.indices.size() * sizeof(std::uint32_t)),
+                 casters.indices.data(), GL_STREAM_DRAW);
 }
 
 void OcclusionMasks::prepare_targets(int size, int count) {
@@ -60,23 +97,6 @@ void OcclusionMasks::prepare_targets(int size, int count) {
   gl::require_complete_framebuffer(gl_, "drawing slices");
   constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
   for (int i = 0; i < count; ++i) gl_.ClearBufferfv(GL_COLOR, i, kNothing);
-}
-
-void OcclusionMasks::set_uniforms(const SliceFrustum& frustum, const glm::mat3& axes, const glm::vec3& offset,
-                                  const OcclusionOptions& options) const {
-  const auto at = [&](const char* name) { return program_.uniform(name); };
-  const glm::vec2 middle(frustum.low + frustum.high), size(frustum.high - frustum.low);
-  gl_.UniformMatrix3fv(at("light_axes"), 1, GL_FALSE, &axes[0][0]);
-  gl_.Uniform3f(at("light_offset"), offset.x, offset.y, offset.z);
-  gl_.Uniform1f(at("near_depth"), static_cast<float>(kNearSlice));
-  gl_.Uniform1f(at("narrowing"), static_cast<float>(frustum.narrowing));
-  gl_.Uniform2f(at("window_middle"), middle.x, middle.y);
-  gl_.Uniform2f(at("window_size"), size.x, size.y);
-  gl_.Uniform1f(at("texels"), static_cast<float>(options.texture_size));
-  gl_.Uniform1i(at("samples"), options.coverage == SliceCoverage::kArea ? kAreaSamples : 1);
-  gl_.Uniform1f(at("first_plane"), static_cast<float>(frustum.first));
-  gl_.Uniform1f(at("thickness"), static_cast<float>(frustum.thickness));
-  gl_.Uniform1i(at("slice_count"), frustum.count);
 }
 
 /// Channel c of target t is slice 4t + c.
@@ -104,8 +124,20 @@ std::vector<SliceTexels> OcclusionMasks::read_back(int targets, const OcclusionO
   return slices;
 }
 
-std::vector<SliceTexels> OcclusionMasks::draw(const SliceFrustum& frustum, const glm::mat3& axes,
-                                              const glm::vec3& offset,
+void OcclusionMasks::draw_all(const MaskGeometry& casters, const std::vector<CasterDrawing>& drawings,
+                              int samples) const {
+  for (std::size_t i = 0; i < casters.ranges.size(); ++i) {
+    const auto& [first_index, count] = casters.ranges[i];
+    gl_.Uniform1i(program_.uniform("fills_next"), drawings[i].fills_next);
+    if (drawings[i].front_only) gl_.Enable(GL_CULL_FACE);
+    const auto* first =
+        reinterpret_cast<const void*>(static_cast<std::uintptr_t>(first_index) * sizeof(std::uint32_t));
+    gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT, first, samples);
+    gl_.Disable(GL_CULL_FACE);
+  }
+}
+
+std::vector<SliceTexels> OcclusionMasks::draw(const MaskGeometry& casters,
                                               const std::vector<CasterDrawing>& drawings,
                                               const OcclusionOptions& options, StageClock& clock) {
   const int targets = options.slices / 4;
@@ -118,18 +150,12 @@ std::vector<SliceTexels> OcclusionMasks::draw(const SliceFrustum& frustum, const
   gl_.Enable(GL_COLOR_LOGIC_OP);
   gl_.LogicOp(GL_OR);
   program_.use();
-  set_uniforms(frustum, axes, offset, options);
-  gl_.BindVertexArray(array_);
   const int samples = options.coverage == SliceCoverage::kArea ? kAreaSamples : 1;
-  for (std::size_t i = 0; i < casters_.size(); ++i) {
-    gl_.Uniform1i(program_.uniform("fills_next"), drawings[i].fills_next);
-    if (drawings[i].front_only) gl_.Enable(GL_CULL_FACE);
-    const auto* first = reinterpret_cast<const void*>(static_cast<std::uintptr_t>(casters_[i].first_index) *
-                                                      sizeof(std::uint32_t));
-    gl_.DrawElementsInstanced(GL_TRIANGLES, static_cast<GLsizei>(casters_[i].index_count), GL_UNSIGNED_INT,
-                              first, samples);
-    gl_.Disable(GL_CULL_FACE);
-  }
+  gl_.Uniform1f(program_.uniform("texels"), static_cast<float>(options.texture_size));
+  gl_.Uniform1i(program_.uniform("samples"), samples);
+  gl_.Uniform1i(program_.uniform("slice_count"), options.slices);
+  upload(casters);
+  draw_all(casters, drawings, samples);
   gl_.Disable(GL_COLOR_LOGIC_OP);
   gl_.Disable(GL_CLIP_DISTANCE0);
   gl_.Finish();

@@ -8,7 +8,7 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/mat3x3.hpp>
+#include <glm/vec4.hpp>
 #include <memory>
 #include <vector>
 
@@ -21,10 +21,27 @@ namespace penumbra::detail {
 /// Coverage 0 to 255 of one slice, row by row, row 0 at the window's low y. No texels: nothing is in it.
 using SliceTexels = std::vector<std::uint8_t>;
 
-/// One caster in the uploaded buffers.
-struct MaskRange {
-  std::uint32_t first_index, index_count;
+/// A caster's corner as the center of projection sees it.
+struct MaskVertex {
+  /// Clip coordinates, but for the third.
+  glm::vec4 clip;
+  /// In slices from the first on, and the depth before the light, in any unit.
+  float slice, in_front;
 };
+
+/// Casters to draw: three indices a face, one range of them a caster.
+struct MaskGeometry {
+  struct Range {
+    std::uint32_t first_index, index_count;
+  };
+  std::vector<MaskVertex> vertices;
+  std::vector<std::uint32_t> indices;
+  std::vector<Range> ranges;
+};
+/// One range an extent; `meshes` are theirs. Made in double and rounded at the end. Cost O(vertices + faces).
+MaskGeometry mask_geometry(const std::vector<const TriangleMesh*>& meshes,
+                           const std::vector<CasterExtent>& extents, const SliceSpace& space,
+                           const SliceFrustum& frustum);
 
 /// How one caster is drawn.
 struct CasterDrawing {
@@ -36,28 +53,23 @@ struct CasterDrawing {
 
 class OcclusionMasks {
  public:
-  /// Uploads the casters' points, in the caster frame, and three indices a face.
-  OcclusionMasks(const gl::Functions& gl, const std::vector<glm::vec3>& points,
-                 const std::vector<std::uint32_t>& indices, std::vector<MaskRange> casters);
+  explicit OcclusionMasks(const gl::Functions& gl);
 
-  /// The uploaded points are at axes · point + offset in the light's frame. `drawings`: one a caster. Adds
-  /// the stages slices and read_back to the clock. Cost O(faces + texels · slices).
-  std::vector<SliceTexels> draw(const SliceFrustum& frustum, const glm::mat3& axes, const glm::vec3& offset,
-                                const std::vector<CasterDrawing>& drawings, const OcclusionOptions& options,
-                                StageClock& clock);
+  /// `drawings`: one a caster. Adds the stages slices and read_back to the clock. Cost O(faces + texels · slices).
+  std::vector<SliceTexels> draw(const MaskGeometry& casters, const std::vector<CasterDrawing>& drawings,
+                                const OcclusionOptions& options, StageClock& clock);
 
  private:
   void prepare_targets(int size, int count);
-  void set_uniforms(const SliceFrustum& frustum, const glm::mat3& axes, const glm::vec3& offset,
-                    const OcclusionOptions& options) const;
+  void upload(const MaskGeometry& casters) const;
+  void draw_all(const MaskGeometry& casters, const std::vector<CasterDrawing>& drawings, int samples) const;
   std::vector<SliceTexels> read_back(int targets, const OcclusionOptions& options) const;
 
   const gl::Functions& gl_;
   gl::Program program_;
-  gl::Object points_, indices_, array_, framebuffer_;
+  gl::Object vertices_, indices_, array_, framebuffer_;
   std::vector<std::unique_ptr<gl::Object>> targets_;
   int target_size_ = 0;
-  std::vector<MaskRange> casters_;
 };
 
 }  // namespace penumbra::detail

@@ -1,11 +1,12 @@
 #include "render/occlusion_textures/occlusion_textures.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/matrix.hpp>
+#include <limits>
 #include <string>
 
 #include "penumbra/mesh/error.h"
@@ -13,6 +14,7 @@
 #include "render/light/light_integrals.h"
 #include "render/occlusion_textures/lookup.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
+#include "render/receivers/receiver_middle.h"
 
 namespace penumbra {
 namespace {
@@ -49,71 +51,88 @@ struct OcclusionTextures::Impl {
     std::vector<detail::CasterDrawing> drawings;  ///< one per caster
     bool nothing_casts = false;
   };
-  Plan plan(const detail::SliceSpace& space, const OcclusionOptions& options) const;
-  detail::DepthRange range_to_slice(const detail::DepthRange& of_casters, const detail::SliceSpace& space,
+  /// The receivers of one frame, with their local coordinates: not numbers where nothing is seen.
+  struct Placed {
+    const Receivers& surface;
+    const detail::SliceSpace& space;
+    std::vector<Vec3> places;
+  };
+  Placed place(const Receivers& surface, const detail::SliceSpace& space) const;
+  Plan plan(const Placed& receivers, const OcclusionOptions& options) const;
+  detail::DepthRange range_to_slice(const std::vector<detail::CasterExtent>& extents,
+                                    const detail::SeenRegion& region, const Placed& receivers,
                                     const OcclusionOptions& options) const;
-  void look_up(const detail::SliceSpace& space, const Receivers& surface,
-               const detail::OcclusionLookup* lookup, const Progress& progress,
+  void look_up(const Placed& receivers, const detail::OcclusionLookup* lookup, const Progress& progress,
                std::vector<float>& visibility) const;
 
   gl::Context& context;
   const Scene& scene;
   const RayScene& rays;
-  /// The caster frame, in which points are uploaded: (world - origin) · scale.
-  Vec3 origin;
-  double scale;
   std::vector<const TriangleMesh*> casters;
   std::vector<double> thickness;  ///< one per caster
-  std::unique_ptr<detail::OcclusionMasks> masks;
+  detail::OcclusionMasks masks;
 };
 
 OcclusionTextures::Impl::Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_)
-    : context(context_), scene(scene_), rays(rays_), scale(rays_.frame().scale) {
-  const Bounds bounds = scene.caster_bounds();
-  origin = bounds.empty() ? Vec3(0.0) : bounds.center();
-  std::vector<glm::vec3> points;
-  std::vector<std::uint32_t> indices;
-  std::vector<detail::MaskRange> ranges;
+    : context(context_), scene(scene_), rays(rays_), masks(context_.functions()) {
   for (const SceneObject& object : scene.objects) {
     if (!object.casts || object.mesh.empty()) continue;
-    const auto first_index = static_cast<std::uint32_t>(indices.size());
-    const auto first_point = static_cast<std::uint32_t>(points.size());
-    for (const Vec3& p : object.mesh.positions()) points.push_back(glm::vec3((p - origin) * scale));
-    for (const IndexedTriangle& t : object.mesh.triangles())
-      for (std::uint32_t v : t) indices.push_back(first_point + v);
-    ranges.push_back({first_index, static_cast<std::uint32_t>(indices.size()) - first_index});
     casters.push_back(&object.mesh);
     thickness.push_back(detail::mean_thickness(object.mesh));
   }
-  masks = std::make_unique<detail::OcclusionMasks>(context.functions(), points, indices, std::move(ranges));
-  gl::require_no_error(context.functions(), "uploading casters");
 }
 
-detail::DepthRange OcclusionTextures::Impl::range_to_slice(const detail::DepthRange& of_casters,
-                                                           const detail::SliceSpace& space,
+OcclusionTextures::Impl::Placed OcclusionTextures::Impl::place(const Receivers& surface,
+                                                               const detail::SliceSpace& space) const {
+  constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+  Placed out{surface, space, std::vector<Vec3>(surface.size(), Vec3(kNowhere))};
+  rays.arena().execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 4096), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        if (surface.is_present(i)) out.places[i] = space.projection.local(surface.points[i]);
+    });
+  });
+  return out;
+}
+
+/// A floor may go on to anywhere: of what does not cast no more counts than twice the depth at which a shadow is seen.
+detail::DepthRange OcclusionTextures::Impl::range_to_slice(const std::vector<detail::CasterExtent>& extents,
+                                                           const detail::SeenRegion& region,
+                                                           const Placed& receivers,
                                                            const OcclusionOptions& options) const {
+  const LightProjection& light = receivers.space.projection;
+  detail::DepthRange of_casters, others;
+  for (const detail::CasterExtent& extent : extents) of_casters.add(extent.depth);
   if (options.range == SliceRange::kCasters) return of_casters;
-  detail::DepthRange all = of_casters, others;
   for (const SceneObject& object : scene.objects)
     for (const Vec3& p : object.mesh.positions())
-      (object.casts ? all : others).add(std::max(space.to_light(p).z, detail::kNearSlice));
+      if (!object.casts) others.add(std::max(light.local(p).z, light.plane_depth()));
+  detail::DepthRange all = of_casters;
   all.add(others);
+  const detail::ShadowBounds shadow = detail::shadow_bounds(extents, region, receivers.space);
+  double deepest = of_casters.far;
+  for (const Vec3& p : receivers.places)
+    if (p.z > deepest && shadow.contain(p, light)) deepest = p.z;
+  all.far = std::min(all.far, 2.0 * deepest - of_casters.near);
   const double slice = (all.far - all.near) / options.slices;
   const bool contact = others.near < of_casters.far + slice;
   return options.range == SliceRange::kAuto && contact ? of_casters : all;
 }
 
-OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceSpace& space,
+OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const Placed& receivers,
                                                             const OcclusionOptions& options) const {
   Plan plan;
-  detail::DepthRange depth;
+  const detail::SliceSpace& space = receivers.space;
+  const detail::SeenRegion region = detail::region_of(receivers.places, space);
+  plan.nothing_casts = true;
+  if (region.empty()) return plan;
   for (const TriangleMesh* mesh : casters) {
-    plan.extents.push_back(detail::caster_extent(*mesh, space));
-    depth.add(plan.extents.back().depth);
+    plan.extents.push_back(detail::caster_extent(*mesh, space, region));
+    plan.nothing_casts &= plan.extents.back().depth.empty();
   }
-  plan.nothing_casts = depth.empty();
   if (plan.nothing_casts) return plan;
-  plan.frustum = detail::fit_frustum(plan.extents, range_to_slice(depth, space, options), space, options);
+  plan.frustum = detail::fit_frustum(plan.extents, range_to_slice(plan.extents, region, receivers, options),
+                                     space, options);
   for (std::size_t i = 0; i < casters.size(); ++i) {
     const bool leaks = options.thin_fix == ThinFix::kAuto &&
                        detail::may_leak(thickness[i], plan.extents[i], space, plan.frustum);
@@ -125,9 +144,9 @@ OcclusionTextures::Impl::Plan OcclusionTextures::Impl::plan(const detail::SliceS
 }
 
 /// `lookup`: none where nothing casts.
-void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Receivers& surface,
-                                      const detail::OcclusionLookup* lookup, const Progress& progress,
-                                      std::vector<float>& visibility) const {
+void OcclusionTextures::Impl::look_up(const Placed& from, const detail::OcclusionLookup* lookup,
+                                      const Progress& progress, std::vector<float>& visibility) const {
+  const Receivers& surface = from.surface;
   visibility.assign(surface.size(), 1.0f);
   using detail::SliceReceivers;
   // Neighbors in both directions look at the same texels.
@@ -139,12 +158,11 @@ void OcclusionTextures::Impl::look_up(const detail::SliceSpace& space, const Rec
         const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(surface.width) +
                               static_cast<std::size_t>(x);
         if (!surface.is_present(i)) continue;
-        const Vec3 p = space.to_light(surface.points[i]);
-        const double above = fraction_above_horizon(space.light, surface.points[i], surface.normals[i]);
+        const double above = fraction_above_horizon(from.space.light, surface.points[i], surface.normals[i]);
         visibility[i] = static_cast<float>(above);
-        if (!lookup || !(p.z > 0.0) || !(above > 0.0)) continue;
+        if (!lookup || !(from.space.projection.weight(from.places[i]) > 0.0) || !(above > 0.0)) continue;
         pixels[receivers.count] = i;
-        receivers.add(p, above);
+        receivers.add(from.places[i], from.space.projection, above);
       }
     if (lookup) lookup->look_up(receivers);
     for (std::size_t k = 0; k < receivers.count; ++k)
@@ -165,16 +183,16 @@ OcclusionFrame OcclusionTextures::Impl::render(const AreaLight& light, const Rec
                                                const OcclusionOptions& options, const Progress& progress) {
   OcclusionFrame frame;
   StageClock clock;
-  const detail::SliceSpace space(light, scale);
-  const Plan plan = this->plan(space, options);
+  const detail::ReceiverMiddle middle = detail::receiver_middle(surface);
+  const detail::SliceSpace space{light, LightProjection(light, middle.middle, middle.least_depth())};
+  const Placed receivers = place(surface, space);
+  const Plan plan = this->plan(receivers, options);
   clock.finish("frustum");
   std::uint64_t used = 0, bytes = 0;
   std::unique_ptr<detail::OcclusionLookup> lookup;
   if (!plan.nothing_casts) {
-    const LightFrame& f = space.light.axes;
-    const glm::mat3 axes(glm::transpose(glm::dmat3(f.u, f.v, f.w)));
-    auto slices =
-        masks->draw(plan.frustum, axes, glm::vec3(space.to_light(origin)), plan.drawings, options, clock);
+    auto slices = masks.draw(detail::mask_geometry(casters, plan.extents, space, plan.frustum), plan.drawings,
+                             options, clock);
     report(progress, 0.0);
     rays.arena().execute(
         [&] { lookup = detail::make_occlusion_lookup(slices, plan.frustum, space, options); });
@@ -184,9 +202,9 @@ OcclusionFrame OcclusionTextures::Impl::render(const AreaLight& light, const Rec
     bytes = lookup->bytes();
     const auto thin = std::ranges::count_if(plan.drawings, &detail::CasterDrawing::fills_next);
     frame.counts.push_back({"thin_casters", static_cast<std::uint64_t>(thin)});
-    frame.counts.push_back({"slice_thickness", plan.frustum.thickness / space.scale});
-    if (plan.frustum.narrowing > 0.0)
-      frame.counts.push_back({"cop_offset", 1.0 / (plan.frustum.narrowing * space.scale)});
+    frame.counts.push_back({"slice_thickness", plan.frustum.thickness});
+    if (plan.frustum.by_offset > 0.0)
+      frame.counts.push_back({"cop_offset", 1.0 / plan.frustum.by_offset});
     else
       frame.counts.push_back({"cop_offset", "orthographic"});
     for (std::size_t i = 0; i < slices.size(); ++i)
@@ -197,7 +215,7 @@ OcclusionFrame OcclusionTextures::Impl::render(const AreaLight& light, const Rec
   frame.counts.push_back({"casters", casters.size()});
   frame.counts.push_back({"slices_in_use", used});
   frame.counts.push_back({"texture_bytes", bytes});
-  look_up(space, surface, lookup.get(), progress, frame.visibility);
+  look_up(receivers, lookup.get(), progress, frame.visibility);
   clock.finish("visibility");
   gl::require_no_error(context.functions(), "rendering occlusion textures");
   frame.stages = clock.stages();

@@ -101,6 +101,7 @@ MethodInfo occlusion_textures_method() {
   return {.name = "occlusion-textures",
           .summary = "prefiltered slices parallel to the light (OpenGL), for comparison",
           .takes_rectangles = true,
+          .takes_distant = true,
           .needs_pixels = true,
           .needs_opengl = true,
           .options = occlusion_options(),

@@ -5,8 +5,8 @@ namespace penumbra::detail {
 LightSpace::LightSpace(const CircularLight& light, const Vec3& middle, double least_depth)
     : projection_({.axes = light_frame(DiskLight{.normal = light.normal}),
                    .center = light.center,
-                   .weight = light.weight,
-                   .half = glm::dvec2(light.radius)},
+                   .half = glm::dvec2(light.radius),
+                   .distant = light.is_distant()},
                   middle, least_depth) {}
 
 LightSpace LightSpace::with_window(const Uvh& zero, double unit) const {

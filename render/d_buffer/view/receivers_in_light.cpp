@@ -5,47 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
-
-#include "mesh/vectors.h"
 
 namespace penumbra::detail {
 namespace {
 
 /// Speed: receivers that share a box.
 constexpr std::size_t kPerBox = 64;
-/// Speed: receivers that the region is found from, about.
-constexpr std::size_t kSamples = 1'000;
-
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
-
-ReceiverMiddle receiver_middle(const Receivers& receivers) {
-  std::vector<Vec3> points;
-  const std::size_t step = receivers.size() / kSamples | 1;  // odd: not a column of the image
-  for (std::size_t i = 0; i < receivers.size(); i += step)
-    if (receivers.is_present(i)) points.push_back(receivers.points[i]);
-  for (std::size_t i = 0; i < receivers.size() && points.empty(); ++i)  // there may be few
-    if (receivers.is_present(i)) points.push_back(receivers.points[i]);
-  ReceiverMiddle out;
-  if (points.empty()) return out;
-  std::vector<double> values(points.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::ranges::transform(points, values.begin(), [&](const Vec3& p) { return p[axis]; });
-    out.middle[axis] = median(values);
-  }
-  std::ranges::transform(points, values.begin(),
-                         [&](const Vec3& p) { return largest_component(p - out.middle); });
-  out.reach = median(values);
-  return out;
-}
 
 ReceiversInLight::ReceiversInLight(const Receivers& receivers, const LightSpace& space)
     : receivers_(receivers), places_(receivers.size()), boxes_((receivers.size() + kPerBox - 1) / kPerBox) {

@@ -16,14 +16,6 @@
 
 namespace penumbra::detail {
 
-/// A place near which most receivers are, and how far from it: medians, so that a few that are far away do not matter.
-struct ReceiverMiddle {
-  Vec3 middle{0.0};
-  double reach = 0.0;
-};
-/// Of the receivers that are present. Cost O(1).
-ReceiverMiddle receiver_middle(const Receivers& receivers);
-
 /// What the shader takes of a receiver for each pixel, in the window's coordinates.
 struct ReceiverTexels {
   /// (u, v, h), and 1 + the number of the face, counted over all objects of the scene; 0 where nothing is seen,

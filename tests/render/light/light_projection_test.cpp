@@ -11,12 +11,8 @@ namespace {
 
 using testing::Random;
 
-LightProjection projection_of(const CircularLight& light, const Vec3& middle, double least_depth = 1e-3) {
-  return LightProjection({.axes = light_frame(DiskLight{.normal = light.normal}),
-                          .center = light.center,
-                          .weight = light.weight,
-                          .half = glm::dvec2(light.radius)},
-                         middle, least_depth);
+LightProjection projection_of(const LightShape& light, const Vec3& middle, double least_depth = 1e-3) {
+  return LightProjection(area_light(light), middle, least_depth);
 }
 
 /// (q, h).
@@ -73,7 +69,7 @@ TEST(LightProjection, PlanesStayPlanes) {
   Random random(7);
   const DiskLight near{{3.0, 4.0, 1.0}, {-1.0, -2.0, 0.3}, 0.5};
   const DistantLight sun{{0.3, -1.0, 0.2}, 0.53};
-  for (const CircularLight& light : {CircularLight(near), CircularLight(sun)}) {
+  for (const LightShape& light : {LightShape(near), LightShape(sun)}) {
     const LightProjection projection = projection_of(light, {0.1, 0.2, 0.3});
     for (int k = 0; k < 1'000; ++k) {
       const Vec3 x = random.point(), p = random.point(), n = random.direction();
