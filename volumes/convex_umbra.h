@@ -11,7 +11,7 @@
 // are, so facets meet where they should. Only two things are rounded: the points where planes touch the disk,
 // and the resulting vertices.
 //
-// Bodies are the closed components strictly in front of the light that are
+// Bodies are the closed components strictly in front of the light (all of them, where it is distant) that are
 //  - convex, decided exactly: the umbra is all of it but for rounding;
 //  - else star-shaped: the umbra is that of the convex kernel, which lies inside the component. A box that a
 //    rotation has rounded is of this kind; its kernel is the box but for 1e-12 of it.

@@ -1,5 +1,7 @@
 // Extrude: sheets and the penumbra volume. (The umbra volume is in convex_umbra.h.)
 //
+// Rounding is in proportion to the caster's coordinates and to how far the volume reaches, not to the light's distance.
+//
 // Two products, since they serve different ends:
 //  - Sheets are facets and cone patches where a tangent plane supports the caster locally. They are for
 //    looking at. They close for convex casters only: at saddle vertices they do not.
@@ -28,7 +30,8 @@ struct ExtrudeOptions {
   bool split_convex = true;
   /// Assume that no point has a negative winding number about a closed outward component in front of the
   /// light. This holds of any that does not cross itself. Faces that look away from the whole light then need
-  /// no penumbra cells. False: every face gets one.
+  /// no penumbra cells. Where it does not hold, the volume may lack those points and no others. False: every face
+  /// gets a cell.
   bool assume_solid = true;
   /// With `assume_solid`: one penumbra cell for each patch of faces whose hull is proved to lie in the solid.
   /// False: one for each face. Both volumes contain the same points, but for the polygon around the disk.
@@ -57,7 +60,8 @@ ShadowMesh extrude_sheets(const TriangleMesh& mesh, const CircularLight& light,
 
 /// A volume that contains every point in front of the light's plane, within the bound, at which the caster
 /// blocks some of the disk's area. It also contains the caster's own body. What lies in the light's plane or
-/// behind it blocks nothing: a lamp may be part of its ceiling. The guarantee is kContains.
+/// behind it blocks nothing: a lamp may be part of its ceiling. Everything is in front of a distant light. The
+/// guarantee is kContains.
 ///
 /// The volume is a sum of convex cells. Each is everything that one convex body K can keep from some of P, a
 /// polygon circumscribed to the disk (volumes/cells/penumbra_cell.h). K is

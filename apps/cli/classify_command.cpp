@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   penumbra classify scene.json
   penumbra classify scene.json --json > classes.json
-Classes: 0 none-frontfacing, 1 mixed, 2 all-frontfacing; a face whose plane touches the disk is mixed. Tiers say which
+Classes: 0 none-frontfacing, 1 mixed, 2 all-frontfacing; a face whose plane touches the light is mixed. Tiers say which
 arithmetic decided: plain double with an error bound, intervals, or exact rationals. Faces and edges are numbered as the
 mesh is after building (see penumbra inspect); "input" is the face's number in the file's triangles.)";
 
@@ -86,8 +86,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_classify_command(CLI::App& app) {
-  CLI::App& command =
-      *app.add_subcommand("classify", "How each face looks from the disk, both silhouettes and the band");
+  CLI::App& command = *app.add_subcommand(
+      "classify", "How each face looks from a disk or a distant light, both silhouettes and the band");
   auto arguments = std::make_shared<Arguments>();
   add_scene_input(command, arguments->scene);
   command.add_option("--light", arguments->light, "The light, by name or number")

@@ -24,11 +24,11 @@ constexpr const char* kFooter = R"(Examples:
   penumbra volumes scene.json --check
 Each file holds all casters. In PLY every triangle says its object (index in the scene), kind and source (face, edge or
 vertex of that object's mesh, by kind). Inside a volume is where its winding number is at least 1: every point that an
-object partly or wholly hides from the disk is inside its penumbra volume, and only points that it wholly hides are inside
+object partly or wholly hides from the light is inside its penumbra volume, and only points that it wholly hides are inside
 its umbra volume: all of them where the object is one convex body (guarantee exact), else as many as the convex and
 star-shaped bodies in it hide alone (contained). --check ends with exit code 1 where a volume is not closed, or umbra, hard
 shadow and penumbra do not lie inside each other; pieces that cross each other are no fault. Sheets are facets and cone patches, closed only
-for convex casters. Lengths are scene units.)";
+for convex casters. Lights are disks or distant; volumes end beyond a sphere around all objects. Lengths are scene units.)";
 
 struct Arguments {
   CommonOptions common;
@@ -196,9 +196,10 @@ void add_volumes_command(CLI::App& app) {
   add_scene_input(command, arguments->scene);
   command
       .add_option("--umbra", arguments->umbra,
-                  "Where the whole disk is hidden (never too large; may be empty)")
+                  "Where the whole light is hidden (never too large; may be empty)")
       ->type_name("FILE");
-  command.add_option("--penumbra", arguments->penumbra, "Where some of the disk is hidden (never too small)")
+  command
+      .add_option("--penumbra", arguments->penumbra, "Where some of the light is hidden (never too small)")
       ->type_name("FILE");
   command.add_option("--sheets", arguments->sheets, "Facets and cone patches of both, to look at")
       ->type_name("FILE");

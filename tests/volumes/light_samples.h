@@ -11,7 +11,7 @@
 namespace penumbra::testing {
 
 /// Where a segment from x towards sample k of n of the disk ends (Vogel's spiral): at the sample, or, if the light is
-/// distant, `far` away.
+/// distant, about `far` away.
 inline Vec3 end_towards_light(const CircularLight& light, const LightFrame& frame, const Vec3& x, int k,
                               int n, double far) {
   const double angle = 2.399963229728653 * k, r = light.radius * std::sqrt((k + 0.5) / n);

@@ -169,7 +169,7 @@ class ShadowOracle {
     const Vec3 b = box.center(), axis = light_.center - x;
     const double ball = box.radius() * (1.0 + 1e-9) + 1e-12,
                  depth = glm::dot(unit_normal_, x - light_.center);
-    const double t_most = std::min(1.0, (depth - glm::dot(unit_normal_, b - light_.center) + ball) / depth);
+    const double t_most = std::min(1.0, (glm::dot(unit_normal_, x - b) + ball) / depth);
     if (t_most < 0.0) return false;
     const double t = std::clamp(glm::dot(b - x, axis) / glm::dot(axis, axis), 0.0, 1.0);
     return glm::length(b - x - t * axis) <= ball + t_most * light_.radius * (1.0 + 1e-9) + 1e-12;

@@ -1,4 +1,4 @@
-// Twenty-six lights about a mesh, most of them degenerate for it on purpose.
+// Twenty-nine lights about a mesh, most of them degenerate for it on purpose.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -28,7 +28,7 @@ inline std::vector<Pose> light_poses(const TriangleMesh& mesh) {
   // The products in normal·along cancel exactly.
   const Vec3 across = along.x != 0.0 || along.y != 0.0 ? Vec3(-along.y, along.x, 0) : Vec3(1, 0, 0);
   const DiskLight above{c + Vec3(0.1, 3, 0.2) * size, down, 0.2 * size};
-  const Vec3 to_third = d - a;
+  const Vec3 to_third = d - a, sunbeam = glm::normalize(Vec3(0.1, -1.0, 0.2));
   const auto with_radius = [&](double radius) { return DiskLight{above.center, down, radius}; };
   return {
       {"above", above},
@@ -51,6 +51,9 @@ inline std::vector<Pose> light_poses(const TriangleMesh& mesh) {
       {"the light 1e7 sizes away", {c + Vec3(0, 1e7, 0) * size, down, size}},
       {"all 1e7 from the origin", above, 1.0, Vec3(1e7, -1e7, 1e7)},
       {"all 1e-9 as large", above, 1e-9},
+      {"as the sun, 1e9 sizes away", {c - 1e9 * size * sunbeam, sunbeam, 4.6e6 * size}},
+      {"as the sun, 1e12 sizes away", {c - 1e12 * size * sunbeam, sunbeam, 4.6e9 * size}},
+      {"1e6 sizes beside, the plane cuts through", {c + Vec3(1e6, 0, 0) * size, down, 1e4 * size}},
       {"a sun", DistantLight{{0.1, -1.0, 0.2}, 0.53}},
       {"a sun of angle 0 along an edge", DistantLight{along, 0.0}},
       {"a sun along an edge, in a face's plane", DistantLight{along, 30.0}},
