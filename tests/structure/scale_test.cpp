@@ -30,7 +30,7 @@ const std::vector<Rule>& rules() {
   const auto flags = std::regex::ECMAScript | std::regex::icase | std::regex::optimize;
   static const std::vector<Rule> kRules = {
       {"no offset of rays, receivers or lights",
-       std::regex("\\b(?:k(?:Ray|Receiver|Light|Surface|Shadow|Normal|Self)\\w*|(?:ray|receiver|light|"
+       std::regex("\\b(?:k(?:Ray|Receiver|Light|Surface|Shadow|Normal|Self)\\w*|(?:ray|receiver|"
                   "surface|shadow|"
                   "normal|self)_)" +
                       kShift + "\\w*\\b",

@@ -42,8 +42,9 @@ std::vector<std::uint32_t> suspects(const std::vector<std::int8_t>& region) {
 }
 
 void judge_scene(Report& report, const std::string& line, const Scene& scene) {
-  const Contender method = contender("silhouette");
-  JudgedScene judged(scene, kSize);
+  Contender method = contender("silhouette");
+  method.size = kSize;
+  JudgedScene judged(scene);
   if (!judged.takes(method)) return;
   const RenderResult picture = judged.draw(method);
   const SurfaceBuffer surface = apps::surface_by_oracle(scene, kSize.width, kSize.height);

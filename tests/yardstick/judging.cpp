@@ -19,7 +19,8 @@ OptionValues samples(std::uint64_t count) {
 
 /// Pixels whose V is partial or unlike that of a pixel beside, and some of the others; ascending. Nothing of the methods
 /// has a share in the choice.
-std::vector<std::uint32_t> choose_pixels(const Scene& scene, const PictureSize& size) {
+std::vector<std::uint32_t> choose_pixels(const Scene& scene, const PictureSize& size,
+                                         std::optional<int> object) {
   const SurfaceBuffer surface = apps::surface_by_oracle(scene, size.width, size.height);
   std::vector<std::uint32_t> seen, changing, others;
   for (std::uint32_t i = 0; i < surface.size(); ++i)
@@ -34,7 +35,7 @@ std::vector<std::uint32_t> choose_pixels(const Scene& scene, const PictureSize& 
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, size.height - 1); ++v)
       for (int u = std::max(x - 1, 0); u <= std::min(x + 1, size.width - 1); ++u)
         changes = changes || visibility[static_cast<std::size_t>(v * size.width + u)] != visibility[i];
-    (changes ? changing : others).push_back(i);
+    if (!object || surface.object[i] == *object) (changes ? changing : others).push_back(i);
   }
   std::vector<std::uint32_t> chosen = apps::some_of(std::move(changing), kChanging);
   others = apps::some_of(std::move(others), kOthers);
@@ -63,12 +64,15 @@ struct Center {
 // Stratified rays are off by .0008 RMS at 4,096 samples and by .0066 at 256. A hard shadow's pixels are right or wrong: one
 // in a thousand may be, at outlines.
 std::vector<Contender> contenders() {
-  return {{.method = "silhouette", .limits = {0.001, 0.03}},
-          {.method = "reference", .options = samples(4'096), .limits = {0.002, 0.03}},
-          {.method = "rays", .options = samples(256), .limits = {0.01, 0.1}},
-          {.method = "hard", .limits = {0.032, 1.0}, .is_hard = true},
-          {.method = "dbuffer", .is_relative = true},
-          {.method = "occlusion-textures", .is_relative = true}};
+  constexpr PictureSize kFewer{320, 240};  // for rays, which take longer
+  return {
+      {.method = "silhouette", .limits = {0.001, 0.03}},
+      {.method = "reference", .options = samples(4'096), .limits = {0.002, 0.03}, .size = kFewer},
+      {.method = "rays", .options = samples(256), .limits = {0.01, 0.1}, .size = kFewer},
+      {.method = "hard", .limits = {0.032, 1.0}, .is_hard = true, .size = kFewer},
+      {.method = "dbuffer", .is_relative = true},
+      {.method = "occlusion-textures", .is_relative = true},
+  };
 }
 
 Contender contender(const std::string& method) {
@@ -84,7 +88,11 @@ std::string text_of(const Verdict& v) {
   return out;
 }
 
-JudgedScene::JudgedScene(Scene scene, PictureSize size) : renderer_(std::move(scene)), size_(size) {}
+JudgedScene::JudgedScene(Scene scene, std::optional<int> relative_on)
+    : renderer_(std::move(scene)), relative_on_(relative_on), with_point_light_(renderer_.scene()) {
+  LightShape& shape = with_point_light_.lights.front().shape;
+  shape = std::visit(Center{}, shape);
+}
 
 bool JudgedScene::takes(const Contender& contender) const {
   try {
@@ -98,29 +106,22 @@ bool JudgedScene::takes(const Contender& contender) const {
 RenderResult JudgedScene::draw(const Contender& contender) {
   return renderer_.render({.method = contender.method,
                            .options = contender.options,
-                           .width = size_.width,
-                           .height = size_.height});
-}
-
-std::unique_ptr<apps::SceneComparison> JudgedScene::make_judge(const Scene& scene, int rays) const {
-  return std::make_unique<apps::SceneComparison>(
-      scene, apps::Judged{},
-      apps::TraceOptions{
-          .samples = rays, .oracle_pixels = kChanging + kOthers, .pixels = choose_pixels(scene, size_)});
+                           .width = contender.size.width,
+                           .height = contender.size.height});
 }
 
 apps::SceneComparison& JudgedScene::judge_for(const Contender& contender) {
-  if (!contender.is_hard) {
-    if (!soft_) soft_ = make_judge(scene(), kRays);
-    return *soft_;
+  const Kind kind{contender.size, contender.is_hard, contender.is_relative ? relative_on_ : std::nullopt};
+  std::unique_ptr<apps::SceneComparison>& judge = judges_[kind];
+  if (!judge) {
+    const Scene& judged = kind.is_hard ? with_point_light_ : scene();
+    judge = std::make_unique<apps::SceneComparison>(
+        judged, apps::Judged{.object = kind.object, .light = {}},
+        apps::TraceOptions{.samples = kind.is_hard ? 1 : kRays,
+                           .oracle_pixels = kChanging + kOthers,
+                           .pixels = choose_pixels(judged, kind.size, kind.object)});
   }
-  if (!hard_) {
-    with_point_light_ = scene();
-    LightShape& shape = with_point_light_->lights.front().shape;
-    shape = std::visit(Center{}, shape);
-    hard_ = make_judge(*with_point_light_, 1);
-  }
-  return *hard_;
+  return *judge;
 }
 
 const Verdict& JudgedScene::verdict(const Contender& contender) {

@@ -1,6 +1,7 @@
 // Methods, each with what it is held to, and their pictures of one scene judged by the oracle.
 #pragma once
 
+#include <compare>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +13,12 @@
 #include "tests/yardstick/report.h"
 
 namespace penumbra::yardstick {
+
+struct PictureSize {
+  int width = 640, height = 480;
+
+  auto operator<=>(const PictureSize&) const = default;
+};
 
 /// The largest errors of V that count as right. Its own noise is taken out of the oracle's figures, not that of the method.
 struct Limits {
@@ -29,6 +36,7 @@ struct Contender {
   bool is_relative = false;
   /// It is judged as if the light were its center.
   bool is_hard = false;
+  PictureSize size{};
 };
 
 /// Every method but `none`.
@@ -46,15 +54,13 @@ struct Verdict {
 };
 std::string text_of(const Verdict& verdict);
 
-struct PictureSize {
-  int width = 320, height = 240;
-};
-
 /// One scene's pictures. Judged with twice 1,024 rays at up to 8,000 pixels where sixteen rays find a change, or beside, and
 /// at 2,000 others.
 class JudgedScene {
  public:
-  explicit JudgedScene(Scene scene, PictureSize size = {});
+  /// `relative_on`: relative contenders are judged by pixels of this object alone, where the others of the base scene are not
+  /// to be compared.
+  explicit JudgedScene(Scene scene, std::optional<int> relative_on = {});
 
   const Scene& scene() const { return renderer_.scene(); }
   bool takes(const Contender& contender) const;
@@ -63,13 +69,19 @@ class JudgedScene {
   const Verdict& verdict(const Contender& contender);
 
  private:
-  std::unique_ptr<apps::SceneComparison> make_judge(const Scene& scene, int rays) const;
+  struct Kind {
+    PictureSize size;
+    bool is_hard;
+    std::optional<int> object;
+
+    auto operator<=>(const Kind&) const = default;
+  };
   apps::SceneComparison& judge_for(const Contender& contender);
 
   Renderer renderer_;
-  PictureSize size_;
-  std::optional<Scene> with_point_light_;
-  std::unique_ptr<apps::SceneComparison> soft_, hard_;
+  std::optional<int> relative_on_;
+  Scene with_point_light_;
+  std::map<Kind, std::unique_ptr<apps::SceneComparison>> judges_;
   std::map<std::string, Verdict> verdicts_;
 };
 

@@ -123,7 +123,7 @@ Noise noise_of(const RenderResult& first, const RenderResult& second, const Trut
 }
 
 void judge_silhouette(Report& report, const std::string& line, JudgedScene& scene, const Truth& truth) {
-  const PlateFigures f = figures_of(scene.draw(contender("silhouette")), truth);
+  const PlateFigures f = figures_of(scene.draw({.method = "silhouette", .size = kSize}), truth);
   const bool right = f.penumbra > 1000 && f.rmse <= 5e-4 && f.most <= 0.005 && f.wrong_certificates == 0 &&
                      1000 * f.elsewhere <= truth.pixels.size();
   report.add(line, right,
@@ -152,7 +152,7 @@ void judge_plates_under(Report& report, const std::string& kind, const Shape& li
     if (!report.wants(line)) continue;
     const Scene scene = plate_scene(ground, light);
     const Truth truth = truth_of(scene, light);
-    JudgedScene judged(scene, kSize);
+    JudgedScene judged(scene);
     const auto judge = [&](const std::string& method, const auto& by) {
       const std::string name = line + "/" + method;
       if (report.wants(name) && judged.takes(contender(method)))

@@ -16,7 +16,6 @@ struct Sun {
 constexpr std::array<Sun, 5> kSuns{
     {{"sun_1e3", 1e3}, {"sun_1e4", 1e4}, {"sun_1e6", 1e6}, {"sun_1e8", 1e8}, {"sun_1e11", 1e11}}};
 
-constexpr PictureSize kSize{480, 360};
 constexpr double kRounding = 1e-4;
 
 // Over pixels of the same face, of which one picture or the other has penumbra.
@@ -37,12 +36,12 @@ double mean_difference(const RenderResult& a, const RenderResult& b) {
 
 // Rays of the same seed: noise is the same where the geometry is.
 void judge_suns_of(Report& report, const Contender& method) {
-  JudgedScene distant(scene_named("sun_distant"), kSize);
+  JudgedScene distant(scene_named("sun_distant"));
   if (!distant.takes(method)) return;
   const RenderResult limit = distant.draw(method);
   double first = 0.0;
   for (const Sun& sun : kSuns) {
-    const double difference = mean_difference(JudgedScene(scene_named(sun.name), kSize).draw(method), limit);
+    const double difference = mean_difference(JudgedScene(scene_named(sun.name)).draw(method), limit);
     if (first == 0.0) first = difference;
     // That at 1e3 is some part of the penumbra; the others have twice what it says, since a part of it is saturated.
     const bool is_first = sun.distance == kSuns.front().distance;
