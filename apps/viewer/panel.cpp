@@ -123,8 +123,6 @@ void overlays_section(State& state, Places& places) {
   note_place(places, "textures");
   help_on_hover("what the D-buffer or the occlusion textures hold, as the light sees it");
   if (o.sheets || o.penumbra || o.umbra) cut_widgets(o, places);
-  if (o.geometry() && std::holds_alternative<DistantLight>(state.shape()))
-    ImGui::TextWrapped("faces, silhouettes and volumes are for disk and rectangle lights");
 }
 
 void stage_bars(const RenderResult& result) {

@@ -47,23 +47,16 @@ Color cell_color(const ShadowMesh& volume, Color color) {
 
 class Builder {
  public:
-  Builder(const Scene& scene, const DiskLight& light, const Overlays& wanted)
-      : scene_(scene), light_(light), wanted_(wanted) {
-    Bounds bounds = scene.bounds();
-    bounds.add(light.center);
-    out_.origin = bounds.center();
-    out_.bound = bounds.radius() + light.radius;
-    const Vec3 normal = light_frame(light).w;
-    for (const SceneObject& object : scene.objects)
-      for (const Vec3& p : object.mesh.positions())
-        out_.reach = std::max(out_.reach, glm::dot(p - light.center, normal));
+  Builder(const Scene& scene, const CircularLight& light, const Overlays& wanted)
+      : scene_(scene), light_(light), wanted_(wanted), bound_(apps::extrude_options_for(scene, light)) {
+    out_.origin = bound_.bound_center;
+    out_.bound = bound_.bound_radius;
+    set_way();
   }
 
   OverlayGeometry build() {
-    VolumeOptions options{.sheets = wanted_.sheets,
-                          .penumbra = wanted_.penumbra,
-                          .umbra = wanted_.umbra,
-                          .extrude = apps::extrude_options_for(scene_, light_)};
+    VolumeOptions options{
+        .sheets = wanted_.sheets, .penumbra = wanted_.penumbra, .umbra = wanted_.umbra, .extrude = bound_};
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
       const SceneObject& object = scene_.objects[i];
       for (const IndexedTriangle& t : object.mesh.triangles())
@@ -76,6 +69,20 @@ class Builder {
   }
 
  private:
+  void set_way() {
+    const Vec3 normal = light_frame(light_).w;
+    double low = INFINITY, high = -INFINITY;
+    for (const SceneObject& object : scene_.objects)
+      for (const Vec3& p : object.mesh.positions()) {
+        const double along = glm::dot(p - out_.origin, normal);
+        low = std::min(low, along);
+        high = std::max(high, along);
+      }
+    const double plane = glm::dot(way_to_center(light_, out_.origin), normal);
+    if (!light_.is_distant() && std::abs(plane) < out_.bound) low = plane;
+    out_.start = out_.origin + low * normal;
+    out_.reach = std::max(0.0, high - low);
+  }
   OverlayVertex vertex(const Vec3& p, Color c) const {
     const Vec3 q = p - out_.origin;
     return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), {c.r, c.g, c.b, c.a}};
@@ -115,8 +122,9 @@ class Builder {
   }
 
   const Scene& scene_;
-  const DiskLight& light_;
+  const CircularLight& light_;
   const Overlays& wanted_;
+  const ExtrudeOptions bound_;
   OverlayGeometry out_;
 };
 
@@ -127,7 +135,8 @@ bool same_lists(const Overlays& a, const Overlays& b) {
 
 }  // namespace
 
-OverlayGeometry make_overlay_geometry(const Scene& scene, const DiskLight& light, const Overlays& wanted) {
+OverlayGeometry make_overlay_geometry(const Scene& scene, const CircularLight& light,
+                                      const Overlays& wanted) {
   return Builder(scene, light, wanted).build();
 }
 
@@ -143,10 +152,10 @@ bool OverlayMaker::fits(const State& state) const {
 std::shared_ptr<const OverlayGeometry> OverlayMaker::update(const State& state) {
   if (task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
     ready_ = task_.get();
-  if (!state.overlays.geometry() || std::holds_alternative<DistantLight>(state.shape())) return nullptr;
+  if (!state.overlays.geometry()) return nullptr;
   if (!task_.valid() && !fits(state)) {
     made_for_ = state;
-    task_ = std::async(std::launch::async, [scene = current_scene(state), light = state.handled().disk,
+    task_ = std::async(std::launch::async, [scene = current_scene(state), light = state.circular(),
                                             wanted = state.overlays, wake = wake_] {
       auto made = std::make_shared<const OverlayGeometry>(make_overlay_geometry(scene, light, wanted));
       wake();

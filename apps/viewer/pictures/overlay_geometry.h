@@ -20,13 +20,16 @@ struct OverlayGeometry {
   Vec3 origin{0.0};
   std::vector<OverlayVertex> scene;  ///< every object's triangles, for depth only
   std::vector<OverlayVertex> faces, lines, sheets;
-  double reach =
-      0.0;  ///< from the light's plane to the furthest point of the scene, along the light's normal
-  double bound = 0.0;  ///< radius of a sphere around origin that holds scene and light
+  /// Where light begins its way through the scene: a point of the light's plane, or the first point of the scene where
+  /// the light is far away.
+  Vec3 start{0.0};
+  double reach = 0.0;  ///< from there to the furthest point of the scene, along the light's normal
+  double bound =
+      0.0;  ///< radius of a sphere around origin that holds the scene, and the light where it is near
 };
 
 /// Cost that of extrusion where sheets or volumes are wanted.
-OverlayGeometry make_overlay_geometry(const Scene& scene, const DiskLight& light, const Overlays& wanted);
+OverlayGeometry make_overlay_geometry(const Scene& scene, const CircularLight& light, const Overlays& wanted);
 
 /// Makes overlays on a thread of its own, the newest wish last; `wake` is called when one is ready.
 class OverlayMaker {

@@ -13,7 +13,7 @@ constexpr const char* kVertexShader = R"(#version 450 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 color;
 uniform mat4 to_clip;
-uniform vec4 plane;   // distance from the light's plane
+uniform vec3 axis;    // unit vector along which things are cut
 uniform float nearer; // towards the eye, in parts of the depth
 uniform vec2 shift;   // in clip units
 out vec4 shade;
@@ -23,7 +23,7 @@ void main() {
   gl_Position.z -= nearer * gl_Position.w;
   gl_Position.xy += shift * gl_Position.w;
   shade = color;
-  along = dot(plane, vec4(position, 1.0));
+  along = dot(axis, position);
 }
 )";
 
@@ -38,21 +38,21 @@ void main() {
 }
 )";
 
-/// Where sheets and volumes end: distance from a plane, in the geometry's coordinates.
+/// Where sheets and volumes end: what is further along the axis than `most`, from the geometry's origin.
 struct Cut {
-  Vec3 normal;
-  double offset, most;
+  Vec3 axis;
+  double most;
 };
 
 Cut cut_of(const State& state, const OverlayGeometry& g) {
   const Overlays& o = state.overlays;
   if (o.cut_axis == CutAxis::kLight) {
-    const Vec3 normal = light_frame(state.handled().disk).w;
-    return {normal, glm::dot(g.origin - state.handled().disk.center, normal), o.cut * g.reach};
+    const Vec3 normal = light_frame(state.circular()).w;
+    return {normal, glm::dot(g.start - g.origin, normal) + o.cut * g.reach};
   }
-  Vec3 normal(0.0);
-  normal[static_cast<int>(o.cut_axis) - static_cast<int>(CutAxis::kX)] = 1.0;
-  return {normal, g.bound, o.cut < 1.0 ? o.cut * 2.0 * g.bound : 3e38};
+  Vec3 axis(0.0);
+  axis[static_cast<int>(o.cut_axis) - static_cast<int>(CutAxis::kX)] = 1.0;
+  return {axis, o.cut < 1.0 ? (2.0 * o.cut - 1.0) * g.bound : 3e38};
 }
 
 }  // namespace
@@ -107,8 +107,6 @@ void OverlayPass::draw(const State& state, int width, int height) const {
   const double near = std::max(1e-3 * g.bound, distance - 3.0 * g.bound);
   const std::array<float, 16> matrix = Projection(camera, width, height).clip_matrix(near, far);
   const Cut cut = cut_of(state, g);
-  const float plane[4] = {static_cast<float>(cut.normal.x), static_cast<float>(cut.normal.y),
-                          static_cast<float>(cut.normal.z), static_cast<float>(cut.offset)};
   gl_.Viewport(0, 0, width, height);
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Enable(GL_DEPTH_TEST);
@@ -118,7 +116,8 @@ void OverlayPass::draw(const State& state, int width, int height) const {
   gl_.ClearBufferfv(GL_DEPTH, 0, &furthest);
   program_.use();
   gl_.UniformMatrix4fv(program_.uniform("to_clip"), 1, GL_FALSE, matrix.data());
-  gl_.Uniform4fv(program_.uniform("plane"), 1, plane);
+  gl_.Uniform3f(program_.uniform("axis"), static_cast<float>(cut.axis.x), static_cast<float>(cut.axis.y),
+                static_cast<float>(cut.axis.z));
   gl_.Uniform1f(program_.uniform("nearer"), 0.0f);
   gl_.Uniform2f(program_.uniform("shift"), 0.0f, 0.0f);
   gl_.Uniform1f(program_.uniform("cut"), 3e38f);

@@ -7,6 +7,11 @@
 
 namespace penumbra::viewer {
 
+CircularLight State::circular() const {
+  if (const auto* distant = std::get_if<DistantLight>(&shape())) return *distant;
+  return disk_around(shape());
+}
+
 void State::set_shape(const LightShape& shape) {
   Light& light = lights[selected];
   const auto *before = std::get_if<DistantLight>(&light.shape), *after = std::get_if<DistantLight>(&shape);

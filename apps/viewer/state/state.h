@@ -32,8 +32,9 @@ struct Overlays {
   bool penumbra = false;     ///< the closed volume
   bool umbra = false;        ///< the closed volume
   bool textures = false;     ///< what the D-buffer or the occlusion textures hold
-  double cut = 1.0;  ///< sheets and volumes are drawn up to this part of the way: from the light's plane to
-                     ///< the scene's far end, or along an axis through everything
+  /// Sheets and volumes are drawn up to this part of the way: from the light's plane, or from the scene's first point
+  /// where the light is far away, to the scene's far end; or along an axis through everything.
+  double cut = 1.0;
   CutAxis cut_axis = CutAxis::kLight;
   bool geometry() const { return faces || silhouettes || band || sheets || penumbra || umbra; }
 };
@@ -58,6 +59,8 @@ struct State {
   bool two_sided() const { return arrangement != Arrangement::kSingle; }
   /// Of the selected light.
   const LightShape& shape() const { return lights[selected].shape; }
+  /// It as a disk, near or distant; of a rectangle the disk around it.
+  CircularLight circular() const;
   /// A distant light keeps its irradiance where its angle changes.
   void set_shape(const LightShape& shape);
   /// The selected light as its handles have it, and what they make of it.

@@ -117,6 +117,32 @@ TEST_F(WindowTest, SliderAndHandlesChangeTheLight) {
   settled("the light as loaded", [&](const Json& s) { return s["light"]["center"] == before["center"]; });
 }
 
+TEST_F(WindowTest, ASunIsTurnedByItsCenterAndBySliders) {
+  open({PENUMBRA_DATA "/scenes/boxes-sun.json", "--size", "480x700"});
+  const Json before = status()["light"];
+  key("shift+Home");
+  Json now = settled("the sun in view", [&](const Json& s) {
+    return s["handles"].contains("center") && s["handles"]["center"][1].get<double>() > 20.0;
+  });
+  EXPECT_FALSE(now["handles"].contains("x")) << "it has no place";
+  const auto turned = [&](const Json& s) { return s["light"]["direction"] != now["light"]["direction"]; };
+  drag(now["handles"]["center"], 25, 10, "another direction", turned);
+  EXPECT_EQ(status()["light"]["angle_degrees"], before["angle_degrees"]);
+  now = status();
+  drag(now["widgets"]["elevation"], -30, 0, "another elevation", turned);
+  now = status();
+  drag(now["widgets"]["angle"], 20, 0, "another angle",
+       [&](const Json& s) { return s["light"]["angle_degrees"] != before["angle_degrees"]; });
+  key("ctrl+s");
+  until("the state saved",
+        [](const Json& s) { return s["message"].get<std::string>().find(".json") != std::string::npos; });
+  const Json saved = Json::parse(read_text(file("boxes-sun-001.json")))["lights"][0];
+  EXPECT_EQ(saved["direction"], status()["light"]["direction"]);
+  EXPECT_EQ(saved["angle_degrees"], status()["light"]["angle_degrees"]);
+  EXPECT_NEAR(saved["irradiance"][0].get<double>(), 3.0, 1e-9);
+  EXPECT_FALSE(saved.contains("radius"));
+}
+
 TEST_F(WindowTest, KeysChangeMethodAndArrangementAndTheDividerMoves) {
   open({kCube, "--size", "320x200"});
   const Json before = status();
