@@ -100,6 +100,8 @@ void set_figures(Comparison& comparison, const std::vector<float>& method, const
   comparison.reference.resize(method.size());
   for (std::size_t i = 0; i < method.size(); ++i)
     comparison.reference[i] = 0.5f * references.first[i] + 0.5f * references.second[i];
+  comparison.first = references.first;
+  comparison.second = references.second;
   comparison.penumbra = true_penumbra(references.first, references.second, comparison.judged);
   comparison.all = error_figures(method, references.first, references.second, comparison.judged);
   comparison.in_penumbra = error_figures(method, references.first, references.second, comparison.penumbra);

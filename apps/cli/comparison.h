@@ -17,6 +17,7 @@ struct Comparison {
   std::vector<std::uint32_t> judged;    ///< pixels that see a receiver
   std::vector<std::uint32_t> penumbra;  ///< those in true penumbra
   std::vector<float> reference;         ///< mean of both references, one per pixel; where judged
+  std::vector<float> first, second;     ///< the references, before the worst pixels were sampled again
   ErrorFigures all, in_penumbra;
   int samples = 0;            ///< rays a pixel of each reference; 0: the reference is an image
   std::size_t skipped = 0;    ///< receivers on which image and scene disagree: at outlines, by rounding

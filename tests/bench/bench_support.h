@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -21,9 +22,11 @@ namespace penumbra::bench {
 
 using SceneNames = std::vector<std::string>;
 
-/// A scene of data/scenes that has one light, by its name without folder and extension.
+/// A scene of data/scenes, or else of data/regressions/scenes, that has one light, by its name without folder and extension.
 inline Scene bench_scene(const std::string& name) {
-  return load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene;
+  const std::filesystem::path data(PENUMBRA_DATA), file = data / "scenes" / (name + ".json");
+  return load_scene(std::filesystem::exists(file) ? file : data / "regressions/scenes" / (name + ".json"))
+      .scene;
 }
 
 /// The shape of the scene's only light.

@@ -35,11 +35,7 @@ const std::vector<Part>& parts() {
        {"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium", "speck-medium",
         "bunny-medium", "knot1-medium", "armadillo-medium", "refined_elephant-medium", "foliage-medium",
         "decorativePlant-medium", "building", "tree"}},
-      {"judge",
-       bench_judge,
-       {"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium", "speck-medium",
-        "bunny-medium", "knot1-medium", "armadillo-small", "armadillo-medium", "refined_elephant-medium",
-        "foliage-medium", "decorativePlant-medium", "building", "tree"}},
+      {"judge", bench_judge, {}},
       {"growth", bench_growth, {}},
       {"occlusion", bench_occlusion_textures, {}}};
   return all;

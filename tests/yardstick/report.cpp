@@ -61,7 +61,7 @@ int Report::conclude() const {
   for (const auto& [group, count] : groups)
     std::printf("%-40s %d of %d right\n", group.c_str(), count.first, count.second);
   int failures = 0;
-  for (const std::string& pattern : required()) {
+  for (const std::string& pattern : required_) {
     bool found = false;
     for (const Finding& finding : findings_) {
       if (!matches(pattern, finding.name)) continue;

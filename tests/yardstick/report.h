@@ -15,7 +15,9 @@ const std::vector<std::string>& required();
 class Report {
  public:
   /// Only what one of the patterns matches is wanted; all where there is none.
-  explicit Report(std::vector<std::string> patterns) : patterns_(std::move(patterns)) {}
+  explicit Report(std::vector<std::string> patterns,
+                  std::vector<std::string> required = yardstick::required())
+      : patterns_(std::move(patterns)), required_(std::move(required)) {}
 
   /// `name` is a path, PART, PART/CASE or PART/CASE/METHOD. A pattern matches it where words at the same place match.
   bool wants(const std::string& name) const;
@@ -39,7 +41,7 @@ class Report {
     std::string name;
     bool right;
   };
-  std::vector<std::string> patterns_;
+  std::vector<std::string> patterns_, required_;
   std::vector<Finding> findings_;
 };
 

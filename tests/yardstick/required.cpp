@@ -4,8 +4,26 @@ namespace penumbra::yardstick {
 
 const std::vector<std::string>& required() {
   static const std::vector<std::string> kRequired = {
-      "cases/sun_1e1/silhouette",
-      "cases/sun_1e1/reference",
+      "cases/ground_*/silhouette",
+      "cases/ground_*/reference",
+      "cases/ground_*/rays",
+      "cases/ground_*/hard",
+      "cases/ground_*/dbuffer",
+      "cases/ground_*/occlusion-textures",
+      "cases/sheet_1e-[1-4]/silhouette",
+      "cases/lamp_in_wall_plane_*/silhouette",
+      "cases/lamp_in_wall_plane_*/reference",
+      "cases/sun_*/silhouette",
+      "cases/sun_1e*/reference",
+      "cases/sun_1e*/hard",
+      "suns/*/silhouette",
+      "plates/*_floor_20/silhouette",
+      "plates/*_floor_20_casts/silhouette",
+      "plates/*_floor_200/silhouette",
+      "plates/*_floor_2000/silhouette",
+      "plates/*_floor_20000/silhouette",
+      "plates/*_floor_1e+06/silhouette",
+      "certificates/*",
   };
   return kRequired;
 }
