@@ -10,4 +10,6 @@ int main() {
             << shadow.silhouettes.band.size() << " edges may bound its shadow; the penumbra has "
             << shadow.penumbra.triangles.size() << " triangles\n";
   penumbra::write_shadow_mesh("penumbra.ply", shadow.penumbra);
+  const penumbra::DistantLight sun{.direction = {0, -1, 0}, .angle_degrees = 0.53};
+  return penumbra::build_shadow_volumes(box, sun).umbra.guarantee == penumbra::Guarantee::kExact ? 0 : 1;
 }
