@@ -76,6 +76,7 @@ void run(const Arguments& arguments) {
     options.progress = progress.callback();
     result = render(scene, options, arguments.common.threads, arguments.warm_up);
   }
+  for (const std::string& warning : result.warnings) complain("warning: " + warning);
   if (arguments.common.verbose) say_stages(result);
   for (const auto& output : arguments.outputs) {
     if (extension_of(output) == ".exr")
