@@ -11,6 +11,7 @@
 #include "render/light/valid_light.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
 #include "render/rays/camera_rays.h"
+#include "render/receivers/unlit.h"
 #include "render/shading/shading.h"
 
 namespace penumbra {
@@ -153,6 +154,8 @@ RenderResult Renderer::render(const RenderOptions& options) {
                                       .keep_textures = options.keep_textures,
                                       .progress = part});
     require_complete(info, result, surface.size());
+    if (auto warning = why_nothing_is_lit(lights[k], surface.receivers(), result.visibility))
+      out.warnings.push_back(std::move(*warning));
     add_to(out.stages, result.stages);
     add_to(setup, result.setup);
     out.lights.push_back({.light = lights[k].name,

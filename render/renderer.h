@@ -59,6 +59,8 @@ struct RenderResult {
   /// One-time set-up so far.
   StageTimes setup;
   std::size_t scene_faces = 0;
+  /// One line for each light of which nothing that is seen gets any: why that is so.
+  std::vector<std::string> warnings;
 };
 
 /// Draws pictures of a scene that it owns. What has changed since the picture before it finds out itself: the

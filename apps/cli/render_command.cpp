@@ -9,7 +9,6 @@
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
 #include "apps/common/stats.h"
-#include "apps/common/unlit_lights.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
 
@@ -77,7 +76,7 @@ void run(const Arguments& arguments) {
     options.progress = progress.callback();
     result = render(scene, options, arguments.common.threads, arguments.warm_up);
   }
-  for (const std::string& line : unlit_lights(scene, result)) complain("warning: " + line);
+  for (const std::string& warning : result.warnings) complain("warning: " + warning);
   if (arguments.common.verbose) say_stages(result);
   for (const auto& output : arguments.outputs) {
     if (extension_of(output) == ".exr")

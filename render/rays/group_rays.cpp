@@ -44,7 +44,7 @@ bool to_frame(const RayPacket& packet, const GroupFrame& frame, Lanes& out) {
     out.way_y[k] = y * per_length;
     out.way_z[k] = z * per_length;
     out.end[k] = length + endless;
-    out.begin[k] = -kBeforeStart;
+    out.begin[k] = -kBeyondEnds;
   }
   return outside != 0;
 }
@@ -70,7 +70,7 @@ void cut_to_box(const GroupFrame& frame, Lanes& lanes, int* valid) {
     cut(lanes.z[k], lanes.way_z[k], frame.low.z, frame.high.z, enter, leave);
     misses[k] = enter > leave || leave < 0.0 ? 1.0 : 0.0;
     const double begin = enter - kBeforeBox;
-    lanes.begin[k] = begin > -kBeforeStart ? begin : -kBeforeStart;
+    lanes.begin[k] = begin > -kBeyondEnds ? begin : -kBeyondEnds;
   }
   for (std::size_t k = 0; k < kRays; ++k) valid[k] = misses[k] != 0.0 ? 0 : valid[k];
 }
@@ -78,7 +78,7 @@ void cut_to_box(const GroupFrame& frame, Lanes& lanes, int* valid) {
 PENUMBRA_VECTOR_CLONES
 void round_to_float(const Lanes& lanes, GroupRays& out) {
   for (std::size_t k = 0; k < kRays; ++k) {
-    const double begin = lanes.begin[k], end = lanes.end[k] - begin, last = end + kBeforeStart;
+    const double begin = lanes.begin[k], end = lanes.end[k] - begin, last = end + kBeyondEnds;
     out.ray.org_x[k] = static_cast<float>(lanes.x[k] + begin * lanes.way_x[k]);
     out.ray.org_y[k] = static_cast<float>(lanes.y[k] + begin * lanes.way_y[k]);
     out.ray.org_z[k] = static_cast<float>(lanes.z[k] + begin * lanes.way_z[k]);

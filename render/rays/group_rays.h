@@ -10,14 +10,15 @@
 
 namespace penumbra::detail {
 
-/// A float ray starts this long before its receiver where that lies in the box: further than float can misplace a face
-/// that the ray does not graze. In units of the frame; directions are about 1 long in their largest coordinate.
-inline constexpr double kBeforeStart = 0x1p-16;
+/// A float ray starts this long before its receiver where that lies in the box, and ends this long beyond the light point:
+/// further than float can misplace a face that the ray does not graze at less than a thousandth of a radian. In units of
+/// the frame; directions are about 1 long in their largest coordinate.
+inline constexpr double kBeyondEnds = 0x1p-12;
 /// And this long before it enters the box where the receiver lies outside.
 inline constexpr double kBeforeBox = 0x1p-3;
 /// The group's box is widened by this.
 inline constexpr double kBoxMargin = 0x1p-10;
-/// Longer than any ray within the box: 2 + 2·kBoxMargin + kBeforeBox.
+/// Longer than any ray within the box: 2 + 2·kBoxMargin + kBeforeBox + kBeyondEnds.
 inline constexpr double kLongestRay = 2.25;
 
 /// local = (world - origin) · scale, and the box of the group's faces in it, widened.

@@ -25,11 +25,18 @@ struct Hit {
                        normal.y * RTCRayN_dir_y(from.ray, from.N, i) +
                        normal.z * RTCRayN_dir_z(from.ray, from.N, i))) {}
 
-  /// Float knows that it lies between receiver and light point, and within the face.
-  bool is_clear(const GroupRays& rays, const RayGeometry& geometry) const {
-    const float least = std::min({u, v, 1.0f - u - v});
+  /// Float knows that it lies between receiver and light point; or that it does not.
+  bool is_between(const GroupRays& rays, const RayGeometry& geometry) const {
     return (at - rays.at_start[ray]) * slope > geometry.clear &&
-           (rays.at_end[ray] - at) * slope > geometry.clear && least * slope > geometry.border;
+           (rays.at_end[ray] - at) * slope > geometry.clear;
+  }
+  bool is_beyond(const GroupRays& rays, const RayGeometry& geometry) const {
+    return (rays.at_start[ray] - at) * slope > geometry.clear ||
+           (at - rays.at_end[ray]) * slope > geometry.clear;
+  }
+  /// Float knows that it lies within the face.
+  bool is_within(const RayGeometry& geometry) const {
+    return std::min({u, v, 1.0f - u - v}) * slope > geometry.border;
   }
 
   std::uint32_t ray, primitive;
@@ -46,9 +53,12 @@ bool is_own(const RayPacket& packet, std::size_t k, const RayGeometry& geometry,
 bool counts(const Hit& hit, const RayGeometry& geometry, const HitQuery& query) {
   const std::uint32_t face = geometry.face(hit.primitive);
   if (is_own(query.packet, hit.ray, geometry, face)) return false;
-  if (hit.is_clear(query.rays, geometry)) return true;
+  const bool between = hit.is_between(query.rays, geometry);
+  if (between && hit.is_within(geometry)) return true;
+  if (!between && hit.is_beyond(query.rays, geometry)) return false;
   const SegmentEnds ends = ends_of(query.packet, hit.ray, query.group.frame);
-  return hides(geometry.corners(face), ends.x, ends.q);
+  const FaceCorners corners = geometry.corners(face);
+  return (between || separates(corners, ends.x, ends.q)) && line_meets(corners, ends.x, ends.q);
 }
 
 /// Where ray k meets the face's plane, in units of its way.

@@ -10,8 +10,8 @@
 //   both products are rounded three times: 12u L² each,
 //
 // so the hit lies on the side of x that t tells where |t - t_x| |D| > 96u L², and likewise for q. Twice that is asked
-// for (kClear). D is small where the ray grazes the face. All other hits are decided by `hides` of segment_face.h, in
-// world coordinates.
+// for (kClear). D is small where the ray grazes the face. All other hits are decided by segment_face.h, in world
+// coordinates.
 //
 // A face's border is as much in doubt: float may take a ray that passes by for one that hits, or, worse, the other way
 // round. So the faces that Embree is given are grown in their planes by kGrown on every side, more than float misplaces

@@ -112,9 +112,9 @@ class RayJudge {
     std::vector<oracle::CasterFace> own;
     if (ray.from.object >= 0)
       own.push_back({static_cast<std::uint32_t>(ray.from.object), FaceId{ray.from.face}});
-    const bool expected =
-        ray.endless ? oracle_.blocked(x, ray.way, own, DistantLight{.direction = -ray.way})
-                    : oracle_.blocked(x, x + ray.way, own, DiskLight{x + ray.way, -ray.way, 0.0});
+    const bool expected = ray.endless
+                              ? oracle_.blocked(x, ray.way, own, DistantLight{.direction = -ray.way})
+                              : oracle_.blocked(x, x + ray.way, own, DiskLight{x + ray.way, -ray.way, 0.0});
     ++(expected ? blocked_ : free_);
     wrong_ += found != expected;
   }
