@@ -196,8 +196,8 @@ void add_compare_command(CLI::App& app) {
   command
       .add_option(
           "--judge", arguments->judge,
-          "What traces the references: rays (Embree, with the offset that all methods have), or double "
-          "(without offset, at some pixels, 1,024 rays each unless --samples says otherwise)")
+          "What traces the references: rays (Embree), or double (shares nothing with the methods; "
+          "at some pixels, 1,024 rays each unless --samples says otherwise)")
       ->check(CLI::IsMember({"rays", "double"}))
       ->capture_default_str();
   command

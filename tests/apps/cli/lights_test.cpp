@@ -36,19 +36,19 @@ TEST_F(LightsTest, ThatLightNothingAreSaidInOneLine) {
       {"shape", "disk"}, {"center", {0.3, 0.35, 0.3}}, {"normal", {0, -1, 0}}, {"radius", 0.01}};
   const Json above = {{"shape", "disk"}, {"center", {0, 4, 0}}, {"normal", {0, -1, 0}}, {"radius", 0.5}};
   const std::pair<Json, const char*> cases[] = {
-      {away, "turn its normal"}, {inside, "inside a mesh"}, {sun({0.2, 1, 0.1}), "face away"}};
+      {away, "turn the light's normal"}, {inside, "inside of one"}, {sun({0.2, 1, 0.1}), "faces away"}};
   for (const auto& [light, what] : cases) {
     const Outcome r = render(Json::array({light}));
     EXPECT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.error_lines(), 1u) << r.err;
-    EXPECT_NE(r.err.find("warning: the light lights no surface of this picture"), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find("warning: the light lights nothing that is seen"), std::string::npos) << r.err;
     EXPECT_NE(r.err.find(what), std::string::npos) << r.err;
   }
   Json named = away;
   named["name"] = "lamp";
   const Outcome r = render(Json::array({above, named}));
   EXPECT_EQ(r.error_lines(), 1u) << r.err;
-  EXPECT_NE(r.err.find("the light lamp lights no surface"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("light lamp lights nothing"), std::string::npos) << r.err;
   EXPECT_EQ(render(Json::array({above})).err, "");
 }
 
