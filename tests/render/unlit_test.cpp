@@ -29,11 +29,11 @@ std::vector<Named> lights() {
           {"half inside of it", DiskLight{{0.5, 0.6, 0}, {1, 0.2, 0}, 0.4}, ""},
           {"on its top, upwards", DiskLight{{0, 1.1, 0}, {0, 1, 0}, 0.3}, "behind the light's plane"},
           {"on its side", DiskLight{{0.5, 0.6, 0}, {1, 0, 0}, 0.3}, ""},
-          {"below the floor", DiskLight{{0, -2, 0}, {0.1, 1, 0}, 0.5}, "casters hide"},
+          {"below the floor", DiskLight{{0, -2, 0}, {0.1, 1, 0}, 0.5}, "faces away"},
           {"facing away", DiskLight{{0, 4, 0}, {0, 1, 0}, 0.5}, "behind the light's plane"},
           {"in the floor", DiskLight{{1, 0, 1}, {0, 1, 0}, 0.3}, ""},
           {"a lamp as usual", DiskLight{{1, 4, 1}, {0, -1, 0}, 0.5}, ""},
-          {"a sun from below", DistantLight{{0.1, 1, 0.2}, 2.0}, "casters hide"},
+          {"a sun from below", DistantLight{{0.1, 1, 0.2}, 2.0}, "faces away"},
           {"a sun as usual", DistantLight{{0.3, -1, 0.2}, 2.0}, ""}};
 }
 
