@@ -24,7 +24,7 @@ void add_to(StageTimes& sums, const StageTime& time) {
 
 }  // namespace
 
-void Outlines::find(std::span<const DBufferCaster> casters, const DiskLight& light, StageClock& clock) {
+void Outlines::find(std::span<const DBufferCaster> casters, const CircularLight& light, StageClock& clock) {
   if (light_ == light) return;
   light_.reset();
   outlines_.assign(casters.size(), {});
@@ -58,17 +58,20 @@ std::vector<Boundary> find_boundaries(const BoundarySource& source, std::span<co
       if (!source.casters[i].cannot_occlude) body(source.casters[i], boundaries[i]);
     clock.finish(name);
   };
+  const auto probes_of = [&](const DBufferCaster& c) {
+    return ProbeSource{static_cast<std::int32_t>(c.object), source.light, source.view.space, source.rays};
+  };
   stage("reach", [&](const DBufferCaster& c, Boundary& b) {
     const auto probes =
         count_facet_probes(footprints_of(c, source.view, b), b.supports, b.outline->gaps, source.receivers);
-    find_facet_reach(*c.mesh, b.supports, probes, {source.light, source.view.space, source.rays}, b.reach);
+    find_facet_reach(*c.mesh, b.supports, probes, probes_of(c), b.reach);
   });
   stage("corners", [&](const DBufferCaster& c, Boundary& b) {
     std::vector<char> is_grazed(b.reach.facets.size());
     for (std::size_t i = 0; i < is_grazed.size(); ++i) is_grazed[i] = !is_hidden(b.reach.facets[i]);
     link_support_facets(*c.mesh, c.rings, source.light, is_grazed, b.supports);
     const auto probes = count_cone_probes(footprints_of(c, source.view, b), b.supports, source.receivers);
-    find_cone_reach(*c.mesh, b.supports, probes, {source.light, source.view.space, source.rays}, b.reach);
+    find_cone_reach(*c.mesh, b.supports, probes, probes_of(c), b.reach);
   });
   return boundaries;
 }

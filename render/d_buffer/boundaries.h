@@ -40,7 +40,7 @@ class Outlines {
  public:
   /// One a caster. Adds the stages classify, silhouettes and supports to the clock; does nothing if light and
   /// casters are those of the last call. Cost O(faces + band).
-  void find(std::span<const DBufferCaster> casters, const DiskLight& light, StageClock& clock);
+  void find(std::span<const DBufferCaster> casters, const CircularLight& light, StageClock& clock);
   /// The next call of `find` finds everything anew: a caster can occlude that could not, or timing needs it.
   void forget() { light_.reset(); }
   std::span<const Outline> all() const { return outlines_; }
@@ -48,7 +48,7 @@ class Outlines {
  private:
   std::vector<Outline> outlines_;
   /// The light that they are for.
-  std::optional<DiskLight> light_;
+  std::optional<CircularLight> light_;
 };
 
 /// What of an outline receivers can read.
@@ -62,7 +62,7 @@ struct Boundary {
 /// What one frame's boundaries are found from.
 struct BoundarySource {
   std::span<const DBufferCaster> casters;
-  const DiskLight& light;
+  const CircularLight& light;
   const DBufferView& view;
   /// Who will read what.
   const ReceiverGrid& receivers;

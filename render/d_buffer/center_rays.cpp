@@ -185,7 +185,7 @@ std::array<DiskPoints, 9> interleaved_points() {
 
 std::vector<float> CenterRays::sampled_visibility(const CircularLight& light,
                                                   std::span<const std::uint32_t> pixels) const {
-  const LightFrame axes = light_frame(DiskLight{.normal = light.normal});
+  const LightFrame axes = light_frame(light);
   const Vec3 u = light.radius * axes.u, v = light.radius * axes.v;
   const SeenDisk disk(light);
   const auto patterns = interleaved_points();

@@ -42,10 +42,10 @@ struct DBuffer::Impl {
   Impl(gl::Context& context_, const Scene& scene_, const RayScene& rays_);
 
   void set_surface(const Receivers& surface);
-  DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress);
+  DBufferFrame render(const CircularLight& light, const DBufferOptions& options, const Progress& progress);
   std::vector<TexturePicture> textures() const;
 
-  void find_casters_that_cannot_occlude(const DiskLight& light);
+  void find_casters_that_cannot_occlude(const CircularLight& light);
   void prepare_layers(const detail::DBufferView& view, const DBufferOptions& options);
 
   gl::Context& context;
@@ -79,7 +79,7 @@ void DBuffer::Impl::set_surface(const Receivers& surface) {
   gl::require_no_error(gl, "uploading the surface buffer");
 }
 
-void DBuffer::Impl::find_casters_that_cannot_occlude(const DiskLight& light) {
+void DBuffer::Impl::find_casters_that_cannot_occlude(const CircularLight& light) {
   const std::vector<char> flags =
       detail::find_casters_that_cannot_occlude(scene, light, rays.frame(), shading.surface());
   for (std::size_t i = 0; i < casters.size(); ++i) {
@@ -107,7 +107,7 @@ void DBuffer::Impl::prepare_layers(const detail::DBufferView& view, const DBuffe
 
 /// Occluders are drawn while boundaries are found, and tiles of the image chosen while entries are drawn:
 /// OpenGL leaves a core idle for most of its time.
-DBufferFrame DBuffer::Impl::render(const DiskLight& light, const DBufferOptions& options,
+DBufferFrame DBuffer::Impl::render(const CircularLight& light, const DBufferOptions& options,
                                    const Progress& progress) {
   DBufferFrame frame;
   StageClock clock;
@@ -200,7 +200,8 @@ int d_buffer_size_for(int width, int height) {
   return static_cast<int>(std::clamp(std::ceil(side / kStep) * kStep, 512.0, 4096.0));
 }
 
-DBufferFrame DBuffer::render(const DiskLight& light, const DBufferOptions& wanted, const Progress& progress) {
+DBufferFrame DBuffer::render(const CircularLight& light, const DBufferOptions& wanted,
+                             const Progress& progress) {
   DBufferOptions options = wanted;
   if (options.size == 0) options.size = impl_->shading.automatic_size();
   require_valid(options);

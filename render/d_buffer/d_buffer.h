@@ -124,7 +124,8 @@ class DBuffer {
   /// size or entries outside their range and before set_surface, SystemError where OpenGL fails, Cancelled.
   /// Cost O(faces + band + texels + pixels), one ray a pixel with CenterTest::kRay, and sixteen for each
   /// pixel that is resampled.
-  DBufferFrame render(const DiskLight& light, const DBufferOptions& options, const Progress& progress = {});
+  DBufferFrame render(const CircularLight& light, const DBufferOptions& options,
+                      const Progress& progress = {});
   /// The next frame finds outlines anew even if the light stays: for timing.
   void forget_light();
   /// What the last frame left in the textures of the first target: the first surface, penumbra entries, umbra

@@ -35,7 +35,7 @@ class DBufferMethod : public Method {
     kept.set(input.receivers);
     stages.finish("upload_surface");
     report(input.progress, 0.0);
-    DBufferFrame frame = kept.buffer.render(require_disk(input.light, "method dbuffer"),
+    DBufferFrame frame = kept.buffer.render(require_circular(input.light, "method dbuffer"),
                                             options_of(input.options), input.progress);
     out.visibility = std::move(frame.visibility);
     out.stages = stages.stages();
@@ -108,6 +108,7 @@ std::vector<OptionSchema> d_buffer_options() {
 MethodInfo d_buffer_method() {
   return {.name = "dbuffer",
           .summary = "what the light's center sees of penumbra boundaries (OpenGL)",
+          .takes_distant = true,
           .needs_pixels = true,
           .needs_opengl = true,
           .options = d_buffer_options(),

@@ -119,7 +119,7 @@ void VisibilityPass::upload(const gl::Object& texture, GLenum format, const std:
   gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, format, GL_FLOAT, texels.data());
 }
 
-void VisibilityPass::trace_center(const DiskLight& light) {
+void VisibilityPass::trace_center(const CircularLight& light) {
   center_rays_->center_seen(light, seen_);
   upload(*center_seen_, GL_RED, seen_);
 }
@@ -247,7 +247,7 @@ void VisibilityPass::test_center_by_depth(const Programs& programs, const DBuffe
 }
 
 /// Step 8.
-void VisibilityPass::resample(const DiskLight& light, std::span<const std::uint32_t> uncertain,
+void VisibilityPass::resample(const CircularLight& light, std::span<const std::uint32_t> uncertain,
                               std::vector<float>& visibility) {
   const auto sample = [&](std::span<const std::uint32_t> pixels) {
     return center_rays_->sampled_visibility(light, pixels);
@@ -256,7 +256,7 @@ void VisibilityPass::resample(const DiskLight& light, std::span<const std::uint3
 }
 
 /// Two passes over the image: the first decides most pixels and marks the others by depth for the second.
-std::vector<float> VisibilityPass::shade(const DiskLight& light, const DBufferView& view,
+std::vector<float> VisibilityPass::shade(const CircularLight& light, const DBufferView& view,
                                          const std::vector<glm::vec2>& tiles, const DBufferLayers& layers,
                                          GLuint records, const DBufferOptions& options) {
   Programs& with = programs(view, options);

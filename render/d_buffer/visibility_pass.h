@@ -46,7 +46,7 @@ class VisibilityPass {
   int automatic_size() const { return d_buffer_size_for(width_, height_); }
 
   /// Step 1: which receivers see the light's center, by one ray each.
-  void trace_center(const DiskLight& light);
+  void trace_center(const CircularLight& light);
   /// Step 3: receivers as the view's shaders see them, and uploads them. With trace_center before it, finds the visibility
   /// where no entry applies: by the center and the horizon.
   void place_receivers(const ReceiversInLight& receivers, const DBufferView& view);
@@ -59,7 +59,7 @@ class VisibilityPass {
                                const EntryGeometry& geometry, const DBufferOptions& options) const;
   /// Visibility of every pixel. `tiles`: as from this class; `records`: the buffer texture of
   /// EntryGeometry::records. The framebuffer that is bound is used; its attachments are replaced.
-  std::vector<float> shade(const DiskLight& light, const DBufferView& view,
+  std::vector<float> shade(const CircularLight& light, const DBufferView& view,
                            const std::vector<glm::vec2>& tiles, const DBufferLayers& layers, GLuint records,
                            const DBufferOptions& options);
   /// How many pixels of the last image were sampled by rays (EntryCheck::kRays).
@@ -77,7 +77,7 @@ class VisibilityPass {
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
                     GLuint records) const;
-  void resample(const DiskLight& light, std::span<const std::uint32_t> uncertain,
+  void resample(const CircularLight& light, std::span<const std::uint32_t> uncertain,
                 std::vector<float>& visibility);
   void bind_textures(const gl::Program& program, const DBufferLayers& layers, GLuint records) const;
 

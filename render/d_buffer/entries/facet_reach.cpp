@@ -2,86 +2,45 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
-#include <optional>
 
 #include "render/rays/ray_packets.h"
 
 namespace penumbra::detail {
 namespace {
 
-// Accuracy (DBufferScenes, Resampler.LessensTheError).
-
-/// Rays pass an edge at this distance on its lit side, in the frame of the rays: above the noise of floats,
-/// which would make the edge hide itself, and below any feature that counts.
-constexpr double kClearance = 2e-5;
-/// A hit nearer than this part of the way to the edge hides the edge. A later one is a face at the edge
-/// itself.
-constexpr double kBefore = 1.0 - 1e-3;
-
 constexpr double kEndless = -std::numeric_limits<double>::infinity();
 
 class Prober {
  public:
-  explicit Prober(const ProbeSource& source)
-      : rays_(source.rays),
-        space_(source.space),
-        axes_(light_frame(source.light)),
-        center_(source.light.center),
-        radius_(source.light.radius) {}
+  explicit Prober(const ProbeSource& source) : from_(source), axes_(light_frame(source.light)) {}
 
-  /// The way from the rim past a point.
-  struct Probe {
-    Vec3 target;   ///< world
-    double angle;  ///< of the contact on the rim
-  };
-
-  /// Where the ray from the rim past the target ends.
-  double end(const Probe& probe, SupportKind kind) const {
-    const std::optional<Ray> ray = aim(probe, kind);
-    if (!ray) return kEndless;
-    const std::optional<RayHit> hit = first_hit(rays_, *ray);
-    if (!hit) return kEndless;
-    if (hit->distance < kBefore) return FacetReach::kHidden;
-    const Vec3 contact = contact_of(probe);
-    return divided(space_.homogeneous(contact + hit->distance * (probe.target - contact))).h;
+  /// Where the light that grazes the target ends, coming from the rim's point at an angle. What touches the target hides
+  /// nothing: rays start on it.
+  double end(const RayStart& target, double angle) const {
+    const Vec3 out = axes_.u * std::cos(angle) + axes_.v * std::sin(angle);
+    const Vec3 way = way_to_center(from_.light, target.point) + from_.light.radius * out;
+    if (first_hit(from_.rays, {.from = target, .way = way, .endless = from_.light.is_distant()}))
+      return FacetReach::kHidden;
+    const std::optional<RayHit> hit = first_hit(from_.rays, {.from = target, .way = -way, .endless = true});
+    return hit ? divided(from_.space.homogeneous(target.point - hit->distance * way)).h : kEndless;
   }
 
   /// Leaves of an edge that crosses the light's plane its part in front.
   void cut_to_front(Vec3& a, Vec3& b) const {
-    const double da = glm::dot(axes_.w, a - center_), db = glm::dot(axes_.w, b - center_);
+    if (from_.light.is_distant()) return;
+    const double da = in_front(a), db = in_front(b);
     if (da < 0.0 && db > 0.0) a = b + (a - b) * (db / (db - da));
     if (db < 0.0 && da > 0.0) b = a + (b - a) * (da / (da - db));
   }
 
  private:
-  /// None where the contact lies on the target's own line along the rim.
-  std::optional<Ray> aim(const Probe& probe, SupportKind kind) const {
-    const Vec3 out = outward(probe), contact = contact_of(probe);
-    // The plane that touches the rim at the contact and passes the target; its normal points away from the
-    // disk.
-    Vec3 beyond = glm::cross(glm::cross(axes_.w, out), probe.target - contact);
-    const double size = glm::length(beyond);
-    if (!(size > 0.0)) return std::nullopt;
-    beyond = beyond / size;
-    if (glm::dot(beyond, out) < 0.0) beyond = -beyond;
-    const Vec3 lit = kind == SupportKind::kPenumbra ? -beyond : beyond;
-    const Vec3 way = probe.target - contact + kClearance / rays_.frame().scale * lit;
-    return Ray{.from = {.point = contact}, .way = way, .endless = true};
-  }
+  double in_front(const Vec3& p) const { return -glm::dot(axes_.w, way_to_center(from_.light, p)); }
 
-  Vec3 outward(const Probe& probe) const {
-    return axes_.u * std::cos(probe.angle) + axes_.v * std::sin(probe.angle);
-  }
-  Vec3 contact_of(const Probe& probe) const { return center_ + radius_ * outward(probe); }
-
-  const RayScene& rays_;
-  const LightSpace& space_;
+  const ProbeSource& from_;
   const LightFrame axes_;
-  const Vec3 center_;
-  const double radius_;
 };
 
 /// Over up to three places along an edge or round a sector, 0 to 1.
@@ -106,7 +65,8 @@ void find_facet_reach(const TriangleMesh& mesh, const Supports& supports,
     Vec3 a = mesh.position(e.from), b = mesh.position(e.to);
     prober.cut_to_front(a, b);
     out.facets[i] = lowest(probes[i], [&](double t) {
-      return prober.end({a + t * (b - a), f.rim_angle}, f.kind);
+      return prober.end({a + t * (b - a), source.object, static_cast<std::uint32_t>(index(e.left))},
+                        f.rim_angle);
     });
   };
   source.rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.facets.size(), probe); });
@@ -119,7 +79,7 @@ void find_cone_reach(const TriangleMesh& mesh, const Supports& supports, std::sp
   const auto probe = [&](std::size_t i) {
     const ConeSector& c = supports.cones[i];
     out.cones[i] = lowest(probes[i], [&](double t) {
-      return prober.end({mesh.position(c.vertex), c.from_angle + t * (c.to_angle - c.from_angle)}, c.kind);
+      return prober.end({.point = mesh.position(c.vertex)}, c.from_angle + t * (c.to_angle - c.from_angle));
     });
   };
   source.rays.arena().execute([&] { tbb::parallel_for(std::size_t{0}, supports.cones.size(), probe); });

@@ -2,7 +2,7 @@
 //
 // In: supports, rays. Out: a height a facet and a cone sector. That a plane touches disk and caster is a
 // local property: the light that grazes an edge may be blocked before it gets there, or by another part of
-// the scene soon after. Rays from the point where the plane touches the disk, past the edge, tell both. A
+// the scene soon after. Two rays from the edge tell: one to the point where the plane touches the disk, one on. A
 // facet whose edge is hidden is not drawn, and one that is cut short ends there: there is less to draw, and
 // no exit from an umbra that something else still darkens. The 2004 paper has neither; its section 6.2 names
 // the artifacts.
@@ -32,13 +32,15 @@ inline bool is_hidden(double end) {
 
 /// Where rays are from and against what.
 struct ProbeSource {
-  const DiskLight& light;
+  /// Of the mesh, as in Scene::objects.
+  std::int32_t object;
+  const CircularLight& light;
   const LightSpace& space;
   const RayScene& rays;
 };
 
-/// Fills `facets` of `out`: the lowest end of up to three rays each, as many as `probes` says. A facet
-/// without a ray counts as hidden. Cost O(rays · log faces), on all cores.
+/// Fills `facets` of `out`: the lowest end at up to three places each, as many as `probes` says. A facet
+/// without one counts as hidden. Cost O(rays · log faces), on all cores.
 void find_facet_reach(const TriangleMesh& mesh, const Supports& supports,
                       std::span<const std::uint8_t> probes, const ProbeSource& source, FacetReach& out);
 /// Fills `cones` in the same way.

@@ -3,7 +3,7 @@
 namespace penumbra::detail {
 
 LightSpace::LightSpace(const CircularLight& light, const Vec3& middle, double least_depth)
-    : projection_({.axes = light_frame(DiskLight{.normal = light.normal}),
+    : projection_({.axes = light_frame(light),
                    .center = light.center,
                    .half = glm::dvec2(light.radius),
                    .distant = light.is_distant()},
