@@ -1,5 +1,6 @@
 // Lights on the command line: distant ones, and those that light nothing.
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tests/apps/cli/program.h"
 
@@ -22,12 +23,34 @@ class LightsTest : public ProgramTest {
   }
   Outcome render(const Json& lights, const std::string& method = "silhouette") const {
     return run({"render", "--strict", scene(lights), "--method", method, "--size", "64x48", "--output",
-                path("a.exr")});
+                path("a.exr"), "--probe", "40,40"});
   }
 };
 
 Json sun(const Json& direction, double angle = 2.0) {
   return {{"shape", "distant"}, {"direction", direction}, {"angle_degrees", angle}, {"irradiance", 3}};
+}
+
+TEST_F(LightsTest, ASunLightsTheFloor) {
+  const Outcome r = render(Json::array({sun({0, -1, 0})}), "none");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.err, "");
+  const Json probe = Json::parse(r.out);
+  EXPECT_EQ(probe["object"], 0);
+  EXPECT_NEAR(probe["rgb"][1].get<double>(), 0.8 * 3.0 / std::numbers::pi, 1e-6);
+}
+
+TEST_F(LightsTest, MethodsSayWhichLightsTheyTake) {
+  const Outcome r = run({"methods", "--json"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  bool any = false;
+  for (const Json& method : Json::parse(r.out)) {
+    const bool takes = method["lights"].get<std::string>().find("distant") != std::string::npos;
+    const Outcome picture = render(Json::array({sun({0.2, -1, 0.1})}), method["name"]);
+    EXPECT_EQ(picture.code, takes ? 0 : 2) << method["name"] << picture.err;
+    any |= takes;
+  }
+  EXPECT_TRUE(any);
 }
 
 TEST_F(LightsTest, ThatLightNothingAreSaidInOneLine) {
