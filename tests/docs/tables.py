@@ -227,13 +227,13 @@ def umbras(part):
 
 # name, when, figure's name, lights, needs
 METHODS = [
-    ("`silhouette`", "the default: exact areas, no noise", "silhouette", "disk", "CPU"),
-    ("`dbuffer`", "shadow boundaries by OpenGL; the 2004 paper and our corrections", "dbuffer", "disk", "OpenGL 4.5"),
+    ("`silhouette`", "the default: exact areas, no noise", "silhouette", "disk, distant", "CPU"),
+    ("`dbuffer`", "shadow boundaries by OpenGL; the 2004 paper and our corrections", "dbuffer", "disk, distant", "OpenGL 4.5"),
     ("`occlusion-textures`", "many small faces; time does not depend on the light's size", "occlusion-textures",
-     "disk, rectangle", "OpenGL 4.5"),
-    ("`reference`, 256 rays", "to judge the others", "reference, 256 rays", "disk, rectangle", "CPU"),
-    ("`rays`, 256 rays", "the same, with rays only where nothing is certified", "rays, 256 rays", "disk", "CPU"),
-    ("`hard`", "a point light's shadow", "hard", "disk, rectangle", "CPU"),
+     "disk, rectangle, distant", "OpenGL 4.5"),
+    ("`reference`, 256 rays", "to judge the others", "reference, 256 rays", "disk, rectangle, distant", "CPU"),
+    ("`rays`, 256 rays", "the same, with rays only where nothing is certified", "rays, 256 rays", "disk, distant", "CPU"),
+    ("`hard`", "a point light's shadow", "hard", "disk, rectangle, distant", "CPU"),
 ]
 
 
