@@ -28,10 +28,9 @@ struct ExtrudeOptions {
   int cone_segments = 16;
   /// One penumbra cell for each convex component. False: convex components are treated as all others.
   bool split_convex = true;
-  /// Assume that no point has a negative winding number about a closed outward component in front of the
-  /// light. This holds of any that does not cross itself. Faces that look away from the whole light then need
-  /// no penumbra cells. Where it does not hold, the volume may lack those points and no others. False: every face
-  /// gets a cell.
+  /// Leave out penumbra cells of faces that look away from the whole light, in closed outward components in front
+  /// of the light, where that is proved to change nothing. Faces that meet others, and those in front of which the
+  /// component winds a negative number of times, keep their cells. False: every face gets one.
   bool assume_solid = true;
   /// With `assume_solid`: one penumbra cell for each patch of faces whose hull is proved to lie in the solid.
   /// False: one for each face. Both volumes contain the same points, but for the polygon around the disk.

@@ -8,6 +8,7 @@
 #include "penumbra/volumes/extrude.h"
 #include "volumes/cells/convex_component.h"
 #include "volumes/cells/convex_patches.h"
+#include "volumes/cells/inverted_folds.h"
 #include "volumes/cells/penumbra_cell.h"
 #include "volumes/predicates/predicate_tiers.h"
 
@@ -86,18 +87,31 @@ class PenumbraExtruder {
         bodies.push_back({component.faces.front(), vertices_of(component)});
         continue;
       }
-      std::vector<FaceId> casting;
-      for (const FaceId f : component.faces) {
-        if (casts(f, solid && options_.assume_solid)) casting.push_back(f);
+      if (!solid || !options_.assume_solid) {
+        add_faces(component.faces, false, bodies);
+        continue;
       }
-      if (solid && options_.assume_solid && options_.merge_faces) {
-        if (!finder) finder.emplace(mesh_);
-        add_patches(finder->find(component, casting, report_some), bodies);
-      } else {
-        for (const FaceId f : casting) bodies.push_back({f});
+      const detail::FaceTree tree(mesh_, component.faces);
+      const std::vector<FaceId> folds = detail::faces_of_inverted_folds(mesh_, component, tree);
+      std::vector<FaceId> others;
+      std::set_difference(component.faces.begin(), component.faces.end(), folds.begin(), folds.end(),
+                          std::back_inserter(others));
+      add_faces(folds, false, bodies);
+      if (!options_.merge_faces) {
+        add_faces(others, true, bodies);
+        continue;
       }
+      std::erase_if(others, [&](FaceId f) { return !casts(f, true); });
+      if (!finder) finder.emplace(mesh_);
+      add_patches(finder->find(tree, others, report_some), bodies);
     }
     return bodies;
+  }
+
+  /// A body for each face that casts.
+  void add_faces(std::span<const FaceId> faces, bool solid, std::vector<Body>& bodies) const {
+    for (const FaceId f : faces)
+      if (casts(f, solid)) bodies.push_back({f});
   }
 
   void add_patches(std::vector<detail::ConvexPatch> patches, std::vector<Body>& bodies) const {
@@ -110,11 +124,12 @@ class PenumbraExtruder {
     }
   }
 
-  /// A solid in front of the light needs no cells for faces that look away from the whole disk. Proof: let x
-  /// be shaded from p, a point of the disk, which is outside the solid. On the way from x to p the winding
-  /// number of the surface changes somewhere, and in the end it is 0. It is not negative at x, so it falls
-  /// somewhere. Where it falls, the path leaves through a face that looks at p. From a point x inside the
-  /// solid it falls, too, so the cells hold the solid itself.
+  /// A solid in front of the light needs no cells for faces that look away from the whole disk, but for those
+  /// of inverted folds. Proof: let x be shaded from p, a point of the disk, which is outside the solid. On the
+  /// way from x to p the winding number of the surface changes somewhere, and in the end it is 0. If it falls
+  /// somewhere, the path leaves there through a face that looks at p. That is so from a point x inside the
+  /// solid, too, so the cells hold the solid itself. If it only rises, it is negative at first, and the face
+  /// where it rises to 0 has a negative winding number in front of it: that face belongs to a fold and has a cell.
   bool casts(FaceId f, bool solid) const {
     if (solid && classes_.faces[index(f)] == FaceClass::kNoneFront) return false;
     const IndexedTriangle& t = triangle(f);

@@ -1,8 +1,5 @@
 // The guarantee of penumbra volumes, point by point: none that is not fully lit is outside. Half of the
 // points are within 1e-3 of the volume's surface, half anywhere in a box.
-//
-// Not counted, but for themselves, are points about which a component of the caster winds in the wrong direction: there
-// the mesh crosses itself, and extrude.h says that its volume lacks them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,9 +18,8 @@ inline constexpr double kNearSurface = 1e-3;  // scene units
 struct ContainmentFigures {
   std::size_t cells = 0, triangles = 0;
   long points = 0, shaded_near = 0, shaded_anywhere = 0, inside_near = 0, inside_anywhere = 0, outside = 0;
-  long inverted = 0;  ///< not fully lit and outside, but in a fold of a caster that crosses itself
-  long exact = 0;     ///< decisions of the oracle in rationals
-  int most = 0;       ///< greatest winding number seen
+  long exact = 0;  ///< decisions of the oracle in rationals
+  int most = 0;    ///< greatest winding number seen
 
   long shaded() const { return shaded_near + shaded_anywhere; }
 
@@ -36,7 +32,6 @@ struct ContainmentFigures {
     inside_near += other.inside_near;
     inside_anywhere += other.inside_anywhere;
     outside += other.outside;
-    inverted += other.inverted;
     exact += other.exact;
     most = std::max(most, other.most);
   }
@@ -48,8 +43,7 @@ struct ContainmentFigures {
     std::ostringstream out;
     out << "cells " << cells << ", triangles " << triangles << "; of " << points
         << " points not fully lit: " << shaded_near << " near, " << shaded_anywhere << " anywhere, outside "
-        << outside << (inverted ? ", in inverted folds " + std::to_string(inverted) : "")
-        << "; inside but fully lit: " << lit(shaded_near, inside_near) << "% near, "
+        << outside << "; inside but fully lit: " << lit(shaded_near, inside_near) << "% near, "
         << lit(shaded_anywhere, inside_anywhere) << "% anywhere; greatest winding " << most
         << "; exact decisions " << exact;
     return out.str();
@@ -62,7 +56,6 @@ class ContainmentCheck {
                    const Bounds& box, std::uint64_t seed)
       : seed_(seed),
         random_(seed),
-        mesh_(mesh),
         volume_(volume),
         box_(box),
         light_(light),
@@ -93,10 +86,6 @@ class ContainmentCheck {
       (near ? figures_.inside_near : figures_.inside_anywhere) += inside;
       if (i % 100 == 0) figures_.most = std::max(figures_.most, pieces_.winding_number(on_some_cell()));
       if (!shaded || inside) continue;
-      if (is_in_inverted_fold(x)) {
-        ++figures_.inverted;
-        continue;
-      }
       ++figures_.outside;
       ADD_FAILURE() << "seed " << seed_ << ", point " << i << ": (" << x.x << ", " << x.y << ", " << x.z
                     << ") is not fully lit but outside";
@@ -112,18 +101,6 @@ class ContainmentCheck {
       if (x[k] < box_.low[k] || x[k] > box_.high[k]) return false;
     }
     return side_of_light_plane(x, light_) == Sign::kPositive;
-  }
-
-  /// Some closed component winds about x a negative number of times.
-  bool is_in_inverted_fold(const Vec3& x) {
-    const Vec3 outside = mesh_.bounds().center() + 3.0 * mesh_.bounds().radius() * random_.direction();
-    return std::any_of(mesh_.components().begin(), mesh_.components().end(), [&](const Component& component) {
-      if (!component.closed) return false;
-      std::vector<IndexedTriangle> triangles;
-      for (const FaceId f : component.faces) triangles.push_back(mesh_.triangles()[index(f)]);
-      const TriangleTree tree(mesh_.positions(), triangles);
-      return winding_number(tree, x, outside, 0.1 * mesh_.bounds().radius(), random_) < 0;
-    });
   }
 
   Vec3 anywhere() {
@@ -175,7 +152,6 @@ class ContainmentCheck {
 
   std::uint64_t seed_;
   RandomInputs random_;
-  const TriangleMesh& mesh_;
   const ShadowMesh& volume_;
   Bounds box_;
   CircularLight light_;

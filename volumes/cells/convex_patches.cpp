@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "penumbra/volumes/predicates/predicates.h"
-#include "volumes/cells/face_tree.h"
 #include "volumes/predicates/predicate_tiers.h"
 
 namespace penumbra::detail {
@@ -63,9 +62,9 @@ class PatchFinder::Grower {
         patch_near_(mesh.triangles().size(), 0),
         refused_by_(mesh.triangles().size(), 0) {}
 
-  std::vector<ConvexPatch> run(const Component& component, std::span<const FaceId> members,
+  std::vector<ConvexPatch> run(const FaceTree& component, std::span<const FaceId> members,
                                const std::function<void(const ConvexPatch&)>& after_each) {
-    tree_.emplace(mesh_, component.faces);
+    tree_ = &component;
     std::vector<FaceId> seeds(members.begin(), members.end());
     std::sort(seeds.begin(), seeds.end(),
               [&](FaceId f, FaceId g) { return rank_[index(f)] < rank_[index(g)]; });
@@ -217,7 +216,7 @@ class PatchFinder::Grower {
 
   const TriangleMesh& mesh_;
   std::vector<std::uint32_t> rank_;        ///< per face
-  std::optional<FaceTree> tree_;           ///< of the component
+  const FaceTree* tree_ = nullptr;         ///< of the component
   std::vector<char> free_;                 ///< per face: a member in no patch yet
   std::vector<std::uint32_t> patch_near_;  ///< per face: the number of the last patch it was near to
   std::vector<std::uint32_t> refused_by_;  ///< per face: the last patch that it could not join
@@ -234,7 +233,7 @@ class PatchFinder::Grower {
 PatchFinder::PatchFinder(const TriangleMesh& mesh) : grower_(std::make_unique<Grower>(mesh)) {}
 PatchFinder::~PatchFinder() = default;
 
-std::vector<ConvexPatch> PatchFinder::find(const Component& component, std::span<const FaceId> members,
+std::vector<ConvexPatch> PatchFinder::find(const FaceTree& component, std::span<const FaceId> members,
                                            const std::function<void(const ConvexPatch&)>& after_each) {
   return grower_->run(component, members, after_each);
 }

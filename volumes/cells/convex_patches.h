@@ -15,8 +15,8 @@
 // Degenerate faces bound nothing. A flat patch is the limit of hulls that reach a hair below it: a plane then
 // also has to have a vertex of the patch strictly behind it, or be that of the patch's faces.
 //
-// Where faces coincide or the winding number is negative somewhere, K may reach out of the solid: the volume
-// then is larger, never too small, since every face is in its patch's hull.
+// Faces that meet others, and faces of inverted folds, are not to be joined (inverted_folds.h): K might reach out of the
+// solid, and the volume be larger than it need be.
 #pragma once
 
 #include <functional>
@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "penumbra/mesh/triangle_mesh.h"
+#include "volumes/cells/face_tree.h"
 
 namespace penumbra::detail {
 
@@ -42,13 +43,14 @@ class PatchFinder {
   explicit PatchFinder(const TriangleMesh& mesh);
   ~PatchFinder();
 
-  /// Divides `members`, faces of `component` of which none is degenerate, into patches as above. A face that
-  /// can be joined to no other is a patch of its own. The component must be closed and oriented outward. Each
+  /// Divides `members`, faces of a component of which none is degenerate, into patches as above. A face that
+  /// can be joined to no other is a patch of its own. The component must be closed and oriented outward, and
+  /// `component` holds its faces. Each
   /// patch grows breadth first to at most 64 faces. Where it begins and grows first depends on positions
   /// alone, so the order of faces changes nothing. Calls `after_each(patch)` for each patch; if that throws,
   /// the finder is of no further use. Expected cost O(n log n) for n faces of the component, times the number
   /// of faces near a patch.
-  std::vector<ConvexPatch> find(const Component& component, std::span<const FaceId> members,
+  std::vector<ConvexPatch> find(const FaceTree& component, std::span<const FaceId> members,
                                 const std::function<void(const ConvexPatch&)>& after_each = {});
 
  private:

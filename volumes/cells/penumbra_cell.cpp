@@ -188,8 +188,9 @@ CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, co
   CellPoints cell{{body.begin(), body.end()}, body.size()};
   cell.points.reserve(body.size() + outline.size() * corners.size() + 1);
   for (const Vec3& k : outline) {
-    const double gain_of_k = far_height - reach.height(k);
-    for (const Vec3& q : corners) cell.points.push_back(k + gain_of_k * reach.ray(k, q));
+    const double scale = (far_height - reach.height(k)) / reach.depth(k);
+    const Vec3 way = reach.from_center(k);
+    for (const Vec3& q : corners) cell.points.push_back(k + scale * (way - q));
   }
   Vec3 middle(0.0);
   for (const Vec3& k : body) middle += (k - body.front()) / static_cast<double>(body.size());

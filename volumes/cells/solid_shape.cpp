@@ -33,6 +33,9 @@ class SolidExaminer {
 
  private:
   const Vec3& corner(FaceId f, int k) const { return mesh_.positions()[mesh_.triangles()[index(f)][k]]; }
+  Vec3 rounded_normal(FaceId f) const {
+    return glm::cross(corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0));
+  }
   std::array<Point, 3> exact_corners(FaceId f) const {
     return {exact(corner(f, 0)), exact(corner(f, 1)), exact(corner(f, 2))};
   }
@@ -50,12 +53,15 @@ class SolidExaminer {
     return true;
   }
 
-  /// Of the first face and the vertex farthest below it, by rounded arithmetic: if the component is convex,
-  /// the average is strictly inside, and otherwise it will be found not to be.
+  /// Of the largest face and the vertex farthest below it, by rounded arithmetic: if the component is convex,
+  /// the average is strictly inside, and otherwise it will be found not to be. Of a sliver the normal would be
+  /// rounded to anything.
   std::optional<std::array<Vec3, 4>> tetrahedron() const {
-    const FaceId first = component_.faces.front();
-    const Vec3 &a = corner(first, 0), &b = corner(first, 1), &c = corner(first, 2);
-    const Vec3 normal = glm::cross(b - a, c - a);
+    const auto area2 = [&](FaceId f) { return glm::dot(rounded_normal(f), rounded_normal(f)); };
+    const FaceId largest = *std::max_element(component_.faces.begin(), component_.faces.end(),
+                                             [&](FaceId f, FaceId g) { return area2(f) < area2(g); });
+    const Vec3 &a = corner(largest, 0), &b = corner(largest, 1), &c = corner(largest, 2);
+    const Vec3 normal = rounded_normal(largest);
     const Vec3* lowest = nullptr;
     double least = 0.0;
     for (const FaceId f : component_.faces) {

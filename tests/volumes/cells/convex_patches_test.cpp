@@ -112,7 +112,8 @@ void check_mesh(const std::string& name, const TriangleMesh& mesh, int points, d
   for (const Component& component : mesh.components()) {
     if (!component.closed || component.signed_volume <= 0.0) continue;
     const std::vector<FaceId> members = faces_with_area(mesh, component);
-    const std::vector<ConvexPatch> found = detail::PatchFinder(mesh).find(component, members);
+    const std::vector<ConvexPatch> found =
+        detail::PatchFinder(mesh).find(detail::FaceTree(mesh, component.faces), members);
     expect_partition(mesh, members, found);
     for (const ConvexPatch& patch : found) inside.check(patch, points);
     faces += members.size();
@@ -159,7 +160,8 @@ TEST(ConvexPatches, DoNotBridgeANotch) {
     ASSERT_TRUE(mesh.is_closed());
     const Component& component = mesh.components().front();
     const std::vector<FaceId> members = faces_with_area(mesh, component);
-    const std::vector<ConvexPatch> patches = detail::PatchFinder(mesh).find(component, members);
+    const std::vector<ConvexPatch> patches =
+        detail::PatchFinder(mesh).find(detail::FaceTree(mesh, component.faces), members);
     expect_partition(mesh, members, patches);
     EXPECT_LT(patches.size(), members.size());
     for (const ConvexPatch& patch : patches) {
@@ -187,7 +189,8 @@ TEST(ConvexPatches, DoNotCoverADent) {
   ASSERT_TRUE(mesh.is_closed());
   ASSERT_EQ(mesh.components().size(), 1u);
   const std::vector<FaceId> members = faces_with_area(mesh, mesh.components().front());
-  const std::vector<ConvexPatch> patches = detail::PatchFinder(mesh).find(mesh.components().front(), members);
+  const std::vector<ConvexPatch> patches =
+      detail::PatchFinder(mesh).find(detail::FaceTree(mesh, mesh.components().front().faces), members);
   expect_partition(mesh, members, patches);
   EXPECT_LT(patches.size(), members.size());
   HullsAreInside inside(mesh);
