@@ -80,8 +80,7 @@ void DBuffer::Impl::set_surface(const Receivers& surface) {
 }
 
 void DBuffer::Impl::find_casters_that_cannot_occlude(const CircularLight& light) {
-  const std::vector<char> flags =
-      detail::find_casters_that_cannot_occlude(scene, light, rays.frame(), shading.surface());
+  const std::vector<char> flags = detail::find_casters_that_cannot_occlude(scene, light, shading.surface());
   for (std::size_t i = 0; i < casters.size(); ++i) {
     const bool cannot_occlude = flags[casters[i].object] != 0;
     if (cannot_occlude != casters[i].cannot_occlude) outlines.forget();

@@ -1,10 +1,8 @@
 #include "render/rays/hit_filter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "mesh/vectors.h"
 

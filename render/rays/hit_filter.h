@@ -14,11 +14,11 @@
 // coordinates.
 //
 // A face's border is as much in doubt: float may take a ray that passes by for one that hits, or, worse, the other way
-// round. So the faces that Embree is given are grown in their planes by kGrown on every side, more than float misplaces
-// an edge. A hit that lies within the face by that and by the error is clear: the barycentric coordinate w of a side of
-// length e is w |N| / e from it, and w |D| > kBorder L suffices with |d| < 7/4, the error across a ray that meets the face
-// at an angle being divided by its sine, |D| / (|N| |d|). What is left to float are rays that graze both faces of an edge:
-// there a silhouette is off by roundings.
+// round. So the faces that Embree is given are grown in their planes by some 64u on every side, g, more than float
+// misplaces an edge; by less where faces are so small that many would overlap. A hit that lies within the face by g and
+// by that error is clear. It lies w |N| / e from a side of length e with the barycentric coordinate w, and the error is
+// divided by the sine at which the ray meets the face, |D| / (|N| |d|), so w |D| > 7/4 (g + error) L suffices, |d| < 7/4.
+// What is left to float are rays that graze both faces of an edge: there a silhouette is off by roundings.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -29,9 +29,10 @@
 
 namespace penumbra::detail {
 
+/// Accuracy (tests ExactRays).
 inline constexpr double kClear = 0x1p-24 * 192.0;
-inline constexpr double kGrown = 0x1p-18;
-inline constexpr double kBorder = 1.75 * (kGrown + 0x1p-19);
+/// Accuracy and speed: g, and how much of the mean edge it is at most.
+inline constexpr double kMostGrown = 0x1p-18, kLeastGrown = 0x1p-21, kGrownOfEdge = 0x1p-6;
 
 /// The nearest face so far.
 struct NearestHit {

@@ -7,9 +7,9 @@ namespace penumbra::detail {
 namespace {
 
 constexpr std::size_t kMostGroups = 8;
-/// A group may be so many times the size of its smallest part, which then keeps 14 bits: float moves its points by less
-/// than 1e-4 of its size.
-constexpr double kMostScales = 1024.0;
+/// A group may be so many times the size of its smallest part, which then keeps 16 bits: float moves its points by less
+/// than 1e-5 of its size.
+constexpr double kMostScales = 256.0;
 
 double extent(const Bounds& bounds) {
   const Vec3 size = bounds.high - bounds.low;

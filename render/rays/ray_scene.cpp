@@ -21,17 +21,21 @@ void throw_embree_error(void*, RTCError, const char* text) {
   throw SystemError(std::string("Embree: ") + text);
 }
 
-double longest_edge(const TriangleMesh& mesh, const std::vector<std::uint32_t>& faces) {
-  if (faces.empty()) return mesh.longest_edge();
-  double longest2 = 0.0;
-  for (const std::uint32_t f : faces) {
-    const IndexedTriangle& t = mesh.triangles()[f];
+struct EdgeLengths {
+  double longest = 0.0, mean = 0.0;
+};
+EdgeLengths edge_lengths(const RayGeometry& of) {
+  EdgeLengths out;
+  const std::size_t count = of.count();
+  for (std::size_t i = 0; i < count; ++i) {
+    const IndexedTriangle& t = of.mesh.triangles()[of.face(static_cast<std::uint32_t>(i))];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 e = mesh.positions()[t[(k + 1) % 3]] - mesh.positions()[t[k]];
-      longest2 = std::max(longest2, glm::dot(e, e));
+      const double length = glm::distance(of.mesh.positions()[t[k]], of.mesh.positions()[t[(k + 1) % 3]]);
+      out.longest = std::max(out.longest, length);
+      out.mean += length / (3.0 * static_cast<double>(count));
     }
   }
-  return std::sqrt(longest2);
+  return out;
 }
 
 GroupFrame frame_of(const Bounds& bounds) {
@@ -40,22 +44,20 @@ GroupFrame frame_of(const Bounds& bounds) {
           frame.to_local(bounds.high) + kBoxMargin};
 }
 
-/// The corner at `p` of a face that is grown by kGrown on every side: the sides at it, which run to `q` and `r`, move by
-/// that, so that it moves against their sum by kGrown / sin of their angle. No farther than `farthest`, where the angle
-/// is small.
-Vec3 grown_corner(const Vec3& p, const Vec3& q, const Vec3& r, double farthest) {
+/// The corner at `p` of a face of which every side moves outward by `by`. The sides at it run to `q` and `r`: it moves
+/// along the line that halves their angle, by `by` over the sine of half of it. Not farther than `farthest`, where the
+/// angle is small.
+Vec3 grown_corner(const Vec3& p, const Vec3& q, const Vec3& r, double by, double farthest) {
   const Vec3 one = unit(q - p), other = unit(r - p);
-  const double sine = glm::length(glm::cross(one, other));
-  const Vec3 away = -(one + other);
-  const double length = glm::length(away);
-  return length > 0.0 ? p + std::min(kGrown / sine, farthest / length) * away : p;
+  const double half_sine = 0.5 * glm::distance(one, other);
+  return p - std::min(by / half_sine, farthest) * unit(one + other);
 }
 
 /// Three corners a face, in the frame: no two faces share one.
 void set_corners(RTCGeometry geometry, const RayGeometry& from, const GroupFrame& frame) {
   const auto triangles = from.mesh.triangles();
   const auto positions = from.mesh.positions();
-  const std::size_t count = from.faces.empty() ? triangles.size() : from.faces.size();
+  const std::size_t count = from.count();
   auto* corners = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * count));
   auto* faces = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
@@ -65,7 +67,8 @@ void set_corners(RTCGeometry geometry, const RayGeometry& from, const GroupFrame
     for (std::size_t k = 0; k < 3; ++k)
       p[k] = (positions[triangles[from.face(static_cast<std::uint32_t>(i))][k]] - frame.origin) * frame.scale;
     for (std::size_t k = 0; k < 3; ++k) {
-      corners[3 * i + k] = glm::vec3(grown_corner(p[k], p[(k + 1) % 3], p[(k + 2) % 3], from.farthest));
+      corners[3 * i + k] =
+          glm::vec3(grown_corner(p[k], p[(k + 1) % 3], p[(k + 2) % 3], from.grown, from.farthest));
       faces[3 * i + k] = static_cast<std::uint32_t>(3 * i + k);
     }
   };
@@ -92,11 +95,12 @@ double milliseconds_since(std::chrono::steady_clock::time_point start) {
 
 RayGeometry::RayGeometry(const TriangleMesh& mesh_, const RayPart& part, const GroupFrame& frame)
     : mesh(mesh_), object(part.object), faces(part.faces), scale(frame.scale) {
-  const double as_given = longest_edge(mesh, faces) * scale;
-  farthest = std::max(0.125 * as_given, 4.0 * kGrown);
-  const double longest = as_given + 2.0 * farthest;
+  const EdgeLengths as_given = edge_lengths(*this);
+  grown = std::clamp(kGrownOfEdge * as_given.mean * scale, kLeastGrown, kMostGrown);
+  farthest = std::max(0.125 * as_given.longest * scale, 4.0 * grown);
+  const double longest = as_given.longest * scale + 2.0 * farthest;
   clear = static_cast<float>(kClear * longest * longest);
-  border = static_cast<float>(kBorder * longest);
+  border = static_cast<float>(1.75 * (grown + std::max(kLeastGrown, 0.5 * grown)) * longest);
 }
 
 FaceCorners RayGeometry::corners(std::uint32_t mesh_face) const {

@@ -19,6 +19,7 @@ namespace detail {
 struct RayGeometry {
   RayGeometry(const TriangleMesh& mesh, const RayPart& part, const GroupFrame& frame);
 
+  std::size_t count() const { return faces.empty() ? mesh.triangles().size() : faces.size(); }
   /// Of the object's mesh, by Embree's number.
   std::uint32_t face(std::uint32_t primitive) const { return faces.empty() ? primitive : faces[primitive]; }
   /// In world coordinates times the frame's scale: exact, and of a size that products bear.
@@ -28,8 +29,8 @@ struct RayGeometry {
   std::uint32_t object;
   std::vector<std::uint32_t> faces;  ///< ascending; empty: all
   double scale;                      ///< of the frame
-  /// A corner moves at most so far when its face is grown (hit_filter.h); in the frame.
-  double farthest;
+  /// How far a face's sides are moved outward (hit_filter.h), and its corners at most; in the frame.
+  double grown, farthest;
   /// Where |t|·|N·d| is larger, float knows on which side of the face a point of the ray lies, t away from the hit
   /// (hit_filter.h).
   float clear;

@@ -15,14 +15,14 @@ struct Receivers {
   /// World, scene units.
   std::span<const Vec3> points{};
   /// Optional: unit normals, on the side from which the surface is looked at. What lies below a receiver's
-  /// tangent plane is then hidden from it (its horizon), and rays start a hundred-thousandth of the scene along
-  /// the normal. Without normals nothing is below, rays start at the point itself, and visibility is the
-  /// unoccluded fraction of the light.
+  /// tangent plane is then hidden from it (its horizon). Without normals nothing is below, and visibility is the
+  /// unoccluded fraction of the light. In either case the point is where it is: nothing is moved off a surface.
   std::span<const Vec3> normals{};
   /// Optional: the scene's index of the object on which the point lies; -1: no receiver here, its visibility
   /// is 1.
   std::span<const std::int32_t> objects{};
-  /// Optional, with `objects`: the face of that object's mesh on which the point lies.
+  /// Optional, with `objects`: the face of that object's mesh on which the point lies. It hides nothing from the point;
+  /// nor does any other face in whose plane the point lies, as far as double can tell.
   std::span<const std::uint32_t> faces{};
   /// Where the receivers are a picture's pixels, row by row from the top: its size; else 0.
   int width = 0, height = 0;

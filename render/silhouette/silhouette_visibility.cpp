@@ -25,8 +25,8 @@ SilhouetteCounts& operator+=(SilhouetteCounts& a, const SilhouetteCounts& b) {
         &SilhouetteCounts::certified_umbra, &SilhouetteCounts::behind_light, &SilhouetteCounts::tiles,
         &SilhouetteCounts::empty_tiles, &SilhouetteCounts::listed_edges, &SilhouetteCounts::projected_edges,
         &SilhouetteCounts::segments, &SilhouetteCounts::integrated, &SilhouetteCounts::slabs,
-        &SilhouetteCounts::row_sweeps, &SilhouetteCounts::overlapping, &SilhouetteCounts::rays,
-        &SilhouetteCounts::second_rays})
+        &SilhouetteCounts::row_sweeps, &SilhouetteCounts::overlapping, &SilhouetteCounts::unresolved,
+        &SilhouetteCounts::rays, &SilhouetteCounts::second_rays})
     a.*member += b.*member;
   return a;
 }
@@ -81,8 +81,7 @@ Bounds Call::casters() const {
 }
 
 void Call::run(const Progress& progress) {
-  cannot_occlude_ =
-      in_arena([&] { return find_casters_that_cannot_occlude(scene_, light_, rays_.frame(), receivers_); });
+  cannot_occlude_ = in_arena([&] { return find_casters_that_cannot_occlude(scene_, light_, receivers_); });
   out_.counts.casters_that_cannot_occlude =
       static_cast<std::size_t>(std::count(cannot_occlude_.begin(), cannot_occlude_.end(), char{1}));
   const ReceiverGroups groups = in_arena([&] { return ReceiverGroups(receivers_); });

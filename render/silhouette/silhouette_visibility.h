@@ -33,8 +33,8 @@ class EdgeHierarchies;
 }
 
 struct SilhouetteOptions {
-  /// Accuracy: scanlines across the disk where more than two depth complexities may occur and 256 edges or more
-  /// cross it, 4 to 1024; three quarters of them where fewer do.
+  /// Accuracy: scanlines across the disk where more than 20 edges cross it, 4 to 1024. Where edges are dense, three
+  /// quarters of them in each of two directions; where these disagree, more or an exact sweep.
   int rows = 64;
   /// false: nothing lies below a horizon; visibility is then O.
   bool horizon = true;
@@ -74,6 +74,9 @@ struct SilhouetteCounts {
   std::size_t integrated = 0, slabs = 0, row_sweeps = 0;
   /// Of the integrated, those that met more than two depth complexities.
   std::size_t overlapping = 0;
+  /// Of the integrated, those for which two families of rows still disagreed when there were the most of them
+  /// (areas/visible_area.h): V may be off by more than .004.
+  std::size_t unresolved = 0;
   std::size_t rays = 0, second_rays = 0;
   std::size_t fallback = 0;
   /// Of the band, its tree, and all threads' lists at their longest.

@@ -180,6 +180,7 @@ void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) co
   w.counts.slabs += w.areas[i].method == AreaMethod::kSlabs ? 1 : 0;
   w.counts.row_sweeps += w.areas[i].method == AreaMethod::kRows ? 1 : 0;
   w.counts.overlapping += w.areas[i].complexities > 2 ? 1 : 0;
+  w.counts.unresolved += w.areas[i].resolved ? 0 : 1;
 }
 
 void Evaluation::evaluate(std::size_t first, std::size_t last, const EdgeList& list, Workspace& w) const {
@@ -226,6 +227,7 @@ void Evaluation::judge(std::size_t i, Workspace& w) const {
     result.complexities = 1;
     result.aims[0] = result.aims[1] = middle;
     result.method = AreaMethod::kChain;
+    result.resolved = true;
     add_task(w.tasks, r.index, middle, i);
   } else if (options_.integrate) {
     integrate(i, part, w);

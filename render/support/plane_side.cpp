@@ -25,14 +25,14 @@ Vec3 cross_sizes(const Vec3& a, const Vec3& b) {
 int side_of_plane(const FaceCorners& face, const Vec3& p) {
   const Vec3 a = face.a - p, b = face.b - p, c = face.c - p, ab = face.b - face.a, ac = face.c - face.a;
   const Vec3 n = glm::cross(ab, ac);
-  const double value = glm::dot(n, a);
+  const double value = glm::dot(n, a);  // -D
   const double moved = glm::dot(glm::abs(glm::cross(b, c)), glm::abs(face.a)) +
                        glm::dot(glm::abs(glm::cross(c, a)), glm::abs(face.b)) +
                        glm::dot(glm::abs(glm::cross(a, b)), glm::abs(face.c)) +
                        glm::dot(glm::abs(n), glm::abs(p));
   const double size = glm::dot(cross_sizes(ab, ac), glm::abs(a));
   if (!(std::abs(value) > kUnit * (kCoordinateRoundings * moved + kProductRoundings * size))) return 0;
-  return value > 0.0 ? 1 : -1;
+  return value < 0.0 ? 1 : -1;
 }
 
 }  // namespace penumbra::detail

@@ -15,7 +15,8 @@ struct Family {
   std::string prefix, base;
   std::optional<int> comparable{};
 };
-const std::array<Family, 5> kFamilies{{{"ground_", "ground_2e1"},
+const std::array<Family, 6> kFamilies{{{"blinds", "blinds"},
+                                       {"ground_", "ground_2e1"},
                                        {"stray", "ground_2e1"},
                                        {"sheet_", "sheet_1e-1"},
                                        // From afar the light grazes two sides of the box.

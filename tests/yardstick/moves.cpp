@@ -38,16 +38,21 @@ struct NamedMove {
   Move move;
 };
 
+std::vector<NamedMove> turns() {
+  std::vector<NamedMove> out;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    out.push_back({text("turned_%d", static_cast<int>(seed)), {.turn = turn_by_chance(seed)}});
+  return out;
+}
+
 /// By chance, the same each time. `size` is what shifts are multiples of.
 std::vector<NamedMove> moves(double size) {
   const Vec3 away = glm::normalize(Vec3(0.62, 0.31, -0.72));
-  std::vector<NamedMove> out;
+  std::vector<NamedMove> out = turns();
   for (const int exponent : {-9, -6, -3, 3, 6, 9})
     out.push_back({text("scaled_1e%d", exponent), {.scale = std::pow(10.0, exponent)}});
   for (const int exponent : {3, 5, 7})
     out.push_back({text("moved_1e%d", exponent), {.shift = std::pow(10.0, exponent) * size * away}});
-  for (std::uint64_t seed = 1; seed <= 3; ++seed)
-    out.push_back({text("turned_%d", static_cast<int>(seed)), {.turn = turn_by_chance(seed)}});
   out.push_back({"turned_and_scaled_1e-9", {.scale = 1e-9, .turn = turn_by_chance(4)}});
   out.push_back({"turned_and_scaled_1e9", {.scale = 1e9, .turn = turn_by_chance(5)}});
   out.push_back({"turned_and_moved_1e5", {.turn = turn_by_chance(6), .shift = 1e5 * size * away}});
@@ -104,13 +109,13 @@ std::vector<Contender> contenders_of_moves() {
   return out;
 }
 
-void judge_moves_of(Report& report, const std::string& name) {
+void judge_moves_of(Report& report, const std::string& name, bool only_turned) {
   const Scene scene = scene_named(name);
   JudgedScene base(scene);
   Contender exact = contender("silhouette");
   exact.size = kSize;
   std::optional<RenderResult> before;
-  for (const auto& [move_name, move] : moves(scene.caster_bounds().radius())) {
+  for (const auto& [move_name, move] : only_turned ? turns() : moves(scene.caster_bounds().radius())) {
     const std::string line = "moves/" + name + "_" + move_name;
     if (!report.wants(line)) continue;
     JudgedScene after(moved(scene, move));
@@ -147,7 +152,10 @@ Scene moved(const Scene& scene, const Move& move) {
 
 void judge_moves(Report& report) {
   for (const char* name : {"ground_2e1", "sheet_1e-2", "sun_distant", "boxes-medium", "bunny-small"})
-    judge_moves_of(report, name);
+    judge_moves_of(report, name, false);
+  for (const char* name : {"ground_1e4", "ground_1e6", "stray", "sheet_1e-4", "sheet_1e-5", "sun_1e8",
+                           "lamp_in_wall_plane_1e-3"})
+    judge_moves_of(report, name, true);
 }
 
 }  // namespace penumbra::yardstick

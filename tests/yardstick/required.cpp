@@ -24,6 +24,8 @@ const std::vector<std::string>& required() {
       "plates/*_floor_20000/silhouette",
       "plates/*_floor_1e+06/silhouette",
       "certificates/*",
+      "cases/blinds/silhouette",
+      "patterns/*/silhouette",
   };
   return kRequired;
 }

@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double cross(const glm::dvec2& p, const glm::dvec2& q) {
-  return p.x * q.y - p.y * q.x;
-}
-
 /// The integral of the walk along the rim from the disk's lowest point to an event.
 PENUMBRA_INLINE double walked_on_rim(const Event& e) {
   const double y = e.at.y < -1.0 ? -1.0 : e.at.y > 1.0 ? 1.0 : e.at.y, angle = arc_sine(y);
@@ -25,6 +21,14 @@ PENUMBRA_INLINE double walked_on_rim(const Event& e) {
 PENUMBRA_VECTOR_CLONES
 void walk_rim(const Event* events, std::size_t count, double* __restrict out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = walked_on_rim(events[i]);
+}
+
+PENUMBRA_VECTOR_CLONES
+void integrate_rim(const double* heights, std::size_t count, double* __restrict out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double y = heights[i] < -1.0 ? -1.0 : heights[i] > 1.0 ? 1.0 : heights[i];
+    out[i] = 0.5 * (y * std::sqrt((1.0 - y) * (1.0 + y)) + arc_sine(y));
+  }
 }
 
 /// An angle of more than -2π, to [0, 2π).
@@ -58,7 +62,7 @@ DiskPart::DiskPart(const Chord& horizon) : horizon_(horizon), cut_(horizon.delta
   middle_height_ = foot.y;
   corners_ = {a.y, b.y};
   bottom_on_arc_ = delta - n.y > 0.0;
-  if (!bottom_on_arc_) bottom_ = std::min(a.y, b.y);
+  if (!bottom_on_arc_) bottom_ = std::min(a.y, b.y), lowest_x_ = a.y < b.y ? a.x : b.x;
   if (!(delta + n.y > 0.0)) top_ = std::max(a.y, b.y);
 
   // Where the walk begins.
@@ -85,17 +89,6 @@ double DiskPart::distance_to_boundary(const glm::dvec2& from, const glm::dvec2& 
   const double rim = -along + std::sqrt(std::max(0.0, along * along + 1.0 - glm::dot(from, from)));
   const double descent = -glm::dot(horizon_.normal, direction);
   return descent > 0.0 ? std::min(rim, height(horizon_, from) / descent) : rim;
-}
-
-bool DiskPart::on_left(const Event& e) const {
-  return e.on_chord ? chord_on_left_ : e.at.x < 0.0;
-}
-
-bool DiskPart::comes_first(const Event& a, const Event& b) const {
-  const bool left = on_left(a);
-  if (left != on_left(b)) return !left;
-  if (a.on_chord && b.on_chord) return cross(horizon_.normal, a.at - b.at) > 0.0;
-  return left ? a.at.y > b.at.y : a.at.y < b.at.y;
 }
 
 /// The integral of the walk from the chord's start B: δ/2 times the length along the chord, half the angle
@@ -135,6 +128,10 @@ double DiskPart::sum_walked(std::span<const Event> events) const {
     for (std::size_t i = 0; i < some.size(); ++i) sum += some[i].change * walks[i];
   }
   return sum;
+}
+
+void integrate_rim(std::span<const double> heights, std::span<double> out) {
+  integrate_rim(heights.data(), heights.size(), out.data());
 }
 
 glm::dvec2 DiskPart::middle() const {

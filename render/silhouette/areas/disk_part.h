@@ -41,6 +41,8 @@ class DiskPart {
   /// The least and the greatest height.
   double bottom() const { return bottom_; }
   double top() const { return top_; }
+  /// The lowest point, as if something crossed the boundary there.
+  Event lowest() const { return {{lowest_x_, bottom_}, !bottom_on_arc_, 0}; }
   /// Half the width of the unit disk at height y.
   static double half_width(double y);
   /// The ends of D's horizontal line at height y, where the rim is at ±half_width; empty where first ≥
@@ -52,9 +54,17 @@ class DiskPart {
   /// From a point of D along a unit direction.
   double distance_to_boundary(const glm::dvec2& from, const glm::dvec2& direction) const;
   /// Whether an event lies on the left side of the boundary.
-  bool on_left(const Event& e) const;
+  bool on_left(const Event& e) const { return e.on_chord ? chord_on_left_ : e.at.x < 0.0; }
   /// Whether the walk meets `a` before `b`.
-  bool comes_first(const Event& a, const Event& b) const;
+  bool comes_first(const Event& a, const Event& b) const {
+    const bool left = on_left(a);
+    if (left != on_left(b)) return !left;
+    if (a.on_chord && b.on_chord) {
+      const glm::dvec2 way = a.at - b.at;
+      return horizon_.normal.x * way.y - horizon_.normal.y * way.x > 0.0;
+    }
+    return left ? a.at.y > b.at.y : a.at.y < b.at.y;
+  }
   /// ∫ (x dy - y dx)/2 along the boundary from the lowest point to the event.
   double walked(const Event& e) const;
   /// Σ change · walked(event). Events on the rim are done in vectors.
@@ -69,7 +79,7 @@ class DiskPart {
   Chord horizon_;
   bool cut_;
   bool chord_on_left_ = false, bottom_on_arc_ = true;
-  double area_, bottom_ = -1.0, top_ = 1.0;
+  double area_, bottom_ = -1.0, top_ = 1.0, lowest_x_ = 0.0;
   std::array<double, 2> corners_{-1.0, 1.0};
   /// Half the length of the chord, and the height of its middle.
   double half_ = 0.0, middle_height_ = 0.0;
@@ -78,5 +88,8 @@ class DiskPart {
   /// The integral of the walk from the start of the chord to the lowest point.
   double bottom_walk_ = 0.0;
 };
+
+/// ∫ √(1 - y²) dy from 0 to each height; `out` is as long as `heights`.
+void integrate_rim(std::span<const double> heights, std::span<double> out);
 
 }  // namespace penumbra::detail

@@ -1,11 +1,8 @@
-// Silhouette method, step area: scanlines across the disk with exact intervals, for many segments.
+// Silhouette method, step area: families of rows, for many segments.
 //
-// In: segments inside D, at which the depth complexity L changes. Out: the lowest depth complexity, the
-// length over which rows lie at it, and the moments of L over the rows (visible_area.h).
-//
-// Rows are lanes. Their crossings are sorted and swept many rows at a time, without branches, as many as
-// the processor has lanes (support/real_lanes.h). A crossing is one number, its x with the change of L in
-// the last three bits of the mantissa, so that sorting moves both.
+// In: segments inside D, at which the depth complexity L changes, and a direction. Out: sums over scanlines in that
+// direction at the heights of row_heights.h. L is relative to D's lowest point whatever the direction is, so the
+// sums of two families can be compared with each other and with the integral of L.
 #pragma once
 
 #include <array>
@@ -13,103 +10,75 @@
 #include <vector>
 
 #include "render/silhouette/areas/clip_segments.h"
+#include "render/silhouette/areas/row_heights.h"
+#include "render/silhouette/areas/scanlines.h"
 
 namespace penumbra::detail {
 
-/// Sums over the intervals between crossings in all rows.
-struct RowSums {
-  /// Σ length · L^k, k = 0, 1, 2.
-  double length = 0.0, first = 0.0, second = 0.0;
-  /// The lowest depth complexity, and the length of its intervals.
-  double lowest = 0.0, lowest_length = 0.0;
-  /// How many depth complexities were met.
-  int complexities = 0;
-  /// The middles of long intervals at the lowest depth complexity, in even and in odd rows, the longer first.
-  std::array<glm::dvec2, 2> aims;
+/// By which D is turned before it is swept, so that rows lie along (cosine, -sine).
+struct Turn {
+  double cosine = 1.0, sine = 0.0;
+
+  glm::dvec2 operator()(const glm::dvec2& p) const {
+    return {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
+  }
+  glm::dvec2 back(const glm::dvec2& p) const {
+    return {cosine * p.x + sine * p.y, cosine * p.y - sine * p.x};
+  }
 };
 
-/// As many rows as lie next to each other in memory and are swept together.
-inline constexpr int kRowLanes = 8;
+/// What sweeps leave in memory for the next.
+struct RowMemory {
+  /// Rows whose crossings are kept at a time.
+  static constexpr int kMostTogether = 4 * kScanlines;
 
-/// One crossing of each of kRowLanes neighboring rows.
-struct alignas(kRowLanes * sizeof(double)) RowKeys {
-  std::array<double, kRowLanes> x;
+  /// The rows above the ends of segments; segments that cross some of the rows.
+  std::vector<int> row_a, row_b, crossing;
+  /// Heights of events as shares of that of D, and the changes of L at the left ends between rows.
+  std::vector<double> shares;
+  std::vector<int> changes;
+  /// Heights between strips, and the integral of the rim up to them.
+  std::vector<double> bounds, rim;
+  /// Where the rows at hand are, where the next key of each belongs, counted in numbers, and how many it has.
+  alignas(64) std::array<double, kMostTogether + kScanlines> y{};
+  alignas(64) std::array<std::int32_t, kMostTogether + kScanlines> next{}, counts{};
+  /// Crossing k of row i is lane i mod 16 of entry i/16 · stride + k.
+  std::vector<CrossingKeys> keys;
+  int stride = 1;
 };
 
-/// kRowLanes neighboring rows before their first crossing.
-struct RowStarts {
-  /// The ends of the rows, and L at the left ends.
-  const double *left, *right, *complexity;
-  /// Lower depth complexities count as this.
-  double least;
-};
-
-/// The same rows behind their last crossing.
-struct alignas(kRowLanes * sizeof(double)) RowResults {
-  using Numbers = std::array<double, kRowLanes>;
-  /// As in RowSums, for each row.
-  Numbers length, first, second, lowest, lowest_length;
-  /// The length and the middle of the longest interval at the lowest depth complexity.
-  Numbers best, middle;
-  /// Bit L mod 64 is set for each depth complexity L that was met.
-  std::array<std::int64_t, kRowLanes> seen;
-};
-
-/// Sweeps the rows of one receiver after the other, with memory kept between them.
+/// One family, for one receiver after the other.
 class Rows {
  public:
-  static constexpr double kNoLeast = -1e9;
-  /// `rows`: how many, at even distances across D. Depth complexities below `least` count as that. Cost for
-  /// s segments with c crossings, at most m in a row: s + c + rows · m log² m.
-  RowSums sweep(const ClippedSegments& clipped, const DiskPart& part, int rows, double least = kNoLeast);
+  /// `family`: of RowHeights.
+  Rows(const Turn& turn, int family) : turn_(turn), family_(family), heights_(1, family) {}
+
+  /// `rows`: how many; where they are is kept for the next receiver. Depth complexities below `least` count as that.
+  /// Cost for s segments with c crossings, at most m in a row: s + c + rows · m log² m.
+  LineSums sweep(const ClippedSegments& clipped, const DiskPart& part, int rows, RowMemory& memory,
+                 double least = -LineSums::kNone);
   /// The same with rows sorted one by one and code for any processor: the same bits, for tests.
-  RowSums sweep_singly(const ClippedSegments& clipped, const DiskPart& part, int rows,
-                       double least = kNoLeast);
+  LineSums sweep_singly(const ClippedSegments& clipped, const DiskPart& part, int rows, RowMemory& memory,
+                        double least = -LineSums::kNone);
 
  private:
-  /// A segment, and the rows above its ends.
-  struct CrossingSegment {
-    const Segment* segment;
-    int from, to;
-  };
-  struct Sums {
-    RowSums sums;
-    std::array<double, 2> best{};
-    std::uint64_t seen = 0;
-  };
-
-  int row_above(double y) const;
-  void place_rows(const DiskPart& part, int rows);
-  void find_crossing(const ClippedSegments& clipped);
-  void cross(const ClippedSegments& clipped);
-  void start_complexities(const ClippedSegments& clipped, const DiskPart& part);
-  RowStarts starts(int first) const;
-  void add(const RowResults& rows, int first, Sums& sums) const;
+  void place(const DiskPart& turned, int rows, RowMemory& m);
+  void find_rows(const ClippedSegments& clipped, RowMemory& m) const;
+  void cross(const ClippedSegments& clipped, int first, int last, RowMemory& m) const;
+  void start_complexities(const ClippedSegments& clipped, const DiskPart& part, const DiskPart& turned,
+                          RowMemory& m);
   template <class Sweep>
-  RowSums sweep_with(const ClippedSegments& clipped, const DiskPart& part, int rows, double least,
-                     const Sweep& sweep_from);
+  LineSums sweep_with(const ClippedSegments& clipped, const DiskPart& part, int rows, RowMemory& m,
+                      const Sweep& sweep);
 
-  int rows_ = 0;
-  double least_ = kNoLeast;
-  /// rows_, rounded up to kRowLanes.
-  std::size_t stride_ = 0;
-  double bottom_ = 0.0, spacing_ = 0.0, per_spacing_ = 0.0;
-  /// The rows are placed for the whole disk.
+  Turn turn_;
+  int family_;
+  RowHeights heights_;
+  double bottom_ = 0.0, per_height_ = 0.0;
+  /// Rows are placed for the whole disk.
   bool whole_disk_ = false;
-  std::vector<double> heights_, left_, right_;
-  /// L at the left ends.
-  std::vector<double> complexities_;
-  /// The first crossing_count_ are in use.
-  std::vector<CrossingSegment> crossing_;
-  std::size_t crossing_count_ = 0;
-  /// Where the next key of each row belongs, counted in numbers.
-  std::vector<std::size_t> next_;
-  /// The most crossings of a row, for each kRowLanes rows.
-  std::vector<int> longest_;
-  /// Keys of a row.
-  std::size_t most_ = 1;
-  /// Crossing k of row i is lane i mod kRowLanes of entry i/kRowLanes · most_ + k.
-  std::vector<RowKeys> keys_;
+  /// All rows, sixteen by sixteen.
+  std::vector<Scanlines> lines_;
 };
 
 }  // namespace penumbra::detail

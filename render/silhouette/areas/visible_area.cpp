@@ -1,43 +1,149 @@
 #include "render/silhouette/areas/visible_area.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
-
-#include "render/light/arc_sine.h"
+#include <limits>
+#include <numbers>
 
 namespace penumbra::detail {
 namespace {
 
-// Accuracy. Held by the tests VisibleArea, and as a whole by SilhouetteProperty.
-/// Depth complexities either way of that of D's lowest point; what is beyond counts as the last.
-constexpr int kMostComplexity = 256;
-/// A shorter interval is rounding, not a depth complexity. Light radii.
-constexpr double kLeastLength = 1e-10;
+constexpr double kPi = std::numbers::pi;
+
+// Accuracy. Held by the tests VisibleArea and RegularPatterns, and as a whole by SilhouetteProperty.
 /// The least room beside a chain for a ray. Light radii.
 constexpr double kLeastRoom = 1e-3;
-/// The largest correction by the integral, over |D|, up to which rows count as representative.
-constexpr double kMostCorrection = 0.02;
-/// The most that a few rows may differ from the integral, over |D|.
+/// A lowest depth complexity of a smaller share of D counts as the next one: it may be a rounding, at which no ray
+/// can aim.
+constexpr double kLeastShare = 1e-6;
+/// The most that the areas of two families may differ, over π: some three times what they do in foliage.
 constexpr double kMostApart = 0.004;
+/// The most that a family may be off in the integral of L, over π, in steps of L or its deviations.
+constexpr double kMostOff = 0.005;
+/// The same where rows meet one depth complexity only: nothing corrects their area then.
+constexpr double kMostMissed = 1e-4;
+/// One family is enough where it has so many rows for each segment that a line across the rows meets: then no regular
+/// pattern lies between them.
+constexpr double kRowsToSegments = 2.5;
+/// A smaller variance of L is that of one depth complexity.
+constexpr double kLeastVariance = 1e-9;
+/// What the integral usually corrects of a family's area, over π.
+constexpr double kUsualCorrection = 0.003;
+/// The most that a few rows may differ from the integral, over |D|.
+constexpr double kFewApart = 0.004;
+
+/// How far rows of the second family are turned against the first, radians. Frames of lights are turned themselves
+/// (unit_light.h): against their axes rows have slopes of .618 and -4.4.
+constexpr double kTurn = 1.24;
 
 // Speed. Seen in the benchmark `silhouette`.
-/// The most rows, where rows were not representative.
+/// The most rows of a family, where usual numbers do not do.
 constexpr int kMostRows = 1024;
-/// The rows that tell whether there are two depth complexities.
+/// The rows of a family that tell whether there are two depth complexities.
 constexpr int kFewRows = 16;
-/// So many segments have the full number of rows; fewer err as little with three quarters of it.
-constexpr std::size_t kMany = 256;
-/// The most segments for slabs. With more, rows are faster and err by less than .001.
+/// The most segments for slabs at once.
 constexpr std::size_t kMostForSlabs = 20;
 
-/// ∫ √(1 - y²) dy from 0 to each height.
-PENUMBRA_VECTOR_CLONES
-void integrate_rim(const double* heights, std::size_t count, double* __restrict out) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double y = heights[i] < -1.0 ? -1.0 : heights[i] > 1.0 ? 1.0 : heights[i];
-    out[i] = 0.5 * (y * std::sqrt((1.0 - y) * (1.0 + y)) + arc_sine(y));
+/// What segments are like.
+struct Kind {
+  /// The smallest |jump|, 1 or 2.
+  double step;
+  /// How many segments a line from below to above meets on average.
+  double met;
+};
+
+Kind kind_of(const ClippedSegments& clipped, const DiskPart& part) {
+  int odd = 0;
+  double extent = 0.0;
+  for (const Segment& s : clipped.segments) {
+    odd |= s.jump;
+    extent += std::abs(s.b.x - s.a.x);
   }
+  return {(odd & 1) != 0 ? 1.0 : 2.0, extent * (part.top() - part.bottom()) / part.area()};
+}
+
+/// Sums in which the lowest depth complexity is no sliver. `sweep`: makes them, given what lower ones count as.
+template <class Sweep>
+LineSums sweep_above_slivers(double sliver, const Sweep& sweep) {
+  LineSums sums = sweep(-LineSums::kNone);
+  while (sums.complexities() > 1 && sums.lowest_area <= std::max(sliver, kLeastShare) * sums.area) {
+    sums = sweep(sums.lowest + 1.0);
+    // The less roomy point may lie in the sliver.
+    auto& aims = sums.aims;
+    aims[0] = aims[1] = aims[0].room < aims[1].room ? aims[1] : aims[0];
+  }
+  return sums;
+}
+
+/// The roomier point first; one of them twice where the other has no room.
+std::array<glm::dvec2, 2> choose_aims(RoomyPoint one, RoomyPoint other) {
+  if (one.room < other.room) std::swap(one, other);
+  return {one.at, other.room > 0.0 ? other.at : one.at};
+}
+
+/// What one family of rows says.
+struct Estimate {
+  LineSums sums;
+  double area = 0.0;
+  /// What the integral of L changed of the area, and how far the family was off in the integral.
+  double correction = 0.0, off = 0.0;
+  /// Of L.
+  double variance = 0.0;
+};
+
+Estimate estimate(const LineSums& sums, const ClippedSegments& clipped, const DiskPart& part) {
+  Estimate out;
+  out.sums = sums;
+  const double share = sums.lowest_area / sums.area, mean = sums.first / sums.area;
+  out.variance = std::max(0.0, sums.second / sums.area - mean * mean);
+  out.off = clipped.integral - part.area() * mean;
+  const double covariance = share * (sums.lowest - mean);
+  if (out.variance > kLeastVariance) out.correction = covariance / out.variance * out.off;
+  out.area = std::clamp(part.area() * share + out.correction, 0.0, part.area());
+  return out;
+}
+
+/// Whether the rows of a family represent what there is, by the integral of L.
+bool agrees_with_integral(const Estimate& e, double step) {
+  const double allowed =
+      e.variance > kLeastVariance ? kMostOff * std::max(step, std::sqrt(e.variance)) : kMostMissed * step;
+  return std::abs(e.off) <= allowed * kPi;
+}
+
+/// One of the families represents what there is, and both find the same.
+bool agree(const std::array<Estimate, 2>& both, double step) {
+  return both[0].sums.lowest == both[1].sums.lowest &&
+         std::abs(both[0].area - both[1].area) <= kMostApart * kPi &&
+         (agrees_with_integral(both[0], step) || agrees_with_integral(both[1], step));
+}
+
+VisibleAreaResult result_of(const Estimate& e) {
+  VisibleAreaResult out;
+  out.area = e.area;
+  out.complexities = e.sums.complexities();
+  out.aims = choose_aims(e.sums.aims[0], e.sums.aims[1]);
+  out.method = AreaMethod::kRows;
+  return out;
+}
+
+/// The mean of two families, by how much the integral corrected each; or the one that knows of a lower depth
+/// complexity.
+VisibleAreaResult mean_of(const std::array<Estimate, 2>& both) {
+  const LineSums &a = both[0].sums, &b = both[1].sums;
+  VisibleAreaResult out = result_of(a.lowest <= b.lowest ? both[0] : both[1]);
+  out.complexities = std::popcount(a.met | b.met);
+  if (a.lowest != b.lowest) return out;
+  const auto weight = [](const Estimate& e) {
+    const double usual = kUsualCorrection * kPi;
+    return 1.0 / (usual * usual + e.correction * e.correction);
+  };
+  const double wa = weight(both[0]), wb = weight(both[1]);
+  out.area = (wa * both[0].area + wb * both[1].area) / (wa + wb);
+  const auto best = [](const LineSums& s) { return s.aims[0].room < s.aims[1].room ? s.aims[1] : s.aims[0]; };
+  out.aims = choose_aims(best(a), best(b));
+  return out;
 }
 
 }  // namespace
@@ -71,164 +177,55 @@ bool area_by_chain(const ClippedSegments& clipped, const DiskPart& part, double 
   return true;
 }
 
-void VisibleArea::begin(int least) {
-  areas_.resize(2 * kMostComplexity + 1);
-  aims_ = {};
-  least_ = least;
-  lowest_ = kMostComplexity + 1, highest_ = -kMostComplexity - 1, parity_ = 0;
-}
+VisibleArea::VisibleArea()
+    : alone_({}, 0),
+      families_{Families{alone_, Rows({std::cos(kTurn), std::sin(kTurn)}, 1)}, families_[0], families_[0]},
+      few_(families_[0]) {}
 
-void VisibleArea::add_interval(const Slab& slab, double from, double to, int complexity) {
-  const double length = to - from;
-  if (!(length > kLeastLength)) return;
-  complexity = std::clamp(complexity, least_, kMostComplexity);
-  areas_[complexity + kMostComplexity] += length * slab.height;
-  highest_ = std::max(highest_, complexity);
-  if (complexity > lowest_) return;
-  if (complexity < lowest_) {
-    lowest_ = complexity;
-    aims_ = {};
-  }
-  Aim& aim = aims_[parity_];
-  const double area = length * slab.height, reach = length + slab.height;
-  if (area * aim.reach > aim.area * reach) aim = {area, reach, {0.5 * (from + to), slab.y}};
-}
-
-/// By x. Slabs hold few crossings.
-void VisibleArea::sort_crossings() {
-  for (auto c = crossings_.begin(); c != crossings_.end(); ++c) {
-    const Crossing moving = *c;
-    auto to = c;
-    for (; to != crossings_.begin() && moving.x < to[-1].x; --to) *to = to[-1];
-    *to = moving;
-  }
-}
-
-/// The intervals between a slab's crossings.
-void VisibleArea::sweep(const Slab& slab) {
-  parity_ ^= 1;
-  int complexity = slab.first_complexity;
-  double from = slab.left;
-  for (const Crossing& c : crossings_) {
-    const double x = std::min(std::max(c.x, slab.left), slab.right);
-    if (x > from) add_interval(slab, from, x, complexity);
-    complexity += c.change;
-    from = std::max(from, x);
-  }
-  add_interval(slab, from, slab.right, complexity);
-}
-
-VisibleAreaResult VisibleArea::finish() const {
-  VisibleAreaResult out;
-  out.area = areas_[lowest_ + kMostComplexity];
-  out.complexities = 0;
-  for (int k = lowest_; k <= highest_; ++k) out.complexities += areas_[k + kMostComplexity] > 0.0 ? 1 : 0;
-  out.aims = {aims_[0].at, aims_[1].at};
-  if (aims_[0].room() < aims_[1].room()) std::swap(out.aims[0], out.aims[1]);
-  if (std::min(aims_[0].area, aims_[1].area) == 0.0) out.aims[1] = out.aims[0];
+bool VisibleArea::find_and_sweep_slabs(const ClippedSegments& clipped, const DiskPart& part, std::size_t most,
+                                       double sliver, VisibleAreaResult& out) {
+  if (!slabs_.find(clipped, part, most)) return false;
+  const LineSums sums =
+      sweep_above_slivers(sliver, [&](double least) { return slabs_.sweep(clipped, part, least); });
+  out.area = sums.lowest_area;
+  out.complexities = sums.complexities();
+  out.aims = choose_aims(sums.aims[0], sums.aims[1]);
   out.method = AreaMethod::kSlabs;
-  return out;
-}
-
-void VisibleArea::add_line(const Segment& s) {
-  const bool up = s.b.y > s.a.y;
-  const glm::dvec2 &low = up ? s.a : s.b, &high = up ? s.b : s.a;
-  lines_.push_back({low.y, high.y, low.x, (high.x - low.x) / (high.y - low.y), up ? -s.jump : s.jump});
-}
-
-/// The heights of ends, of crossings, and of the corners of D's boundary, ascending.
-void VisibleArea::make_heights(const DiskPart& part, const ClippedSegments& clipped) {
-  heights_ = {part.bottom(), part.top()};
-  for (const double corner : part.corner_heights()) heights_.push_back(corner);
-  for (const Segment& s : clipped.segments) {
-    heights_.push_back(s.a.y);
-    heights_.push_back(s.b.y);
-  }
-  for (std::size_t i = 0; i < lines_.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      const Line &p = lines_[i], &q = lines_[j];
-      const double low = std::max(p.low, q.low), high = std::min(p.high, q.high);
-      if (!(low < high)) continue;
-      const double at_low = p.at(low) - q.at(low), at_high = p.at(high) - q.at(high);
-      if (at_low * at_high < 0.0) heights_.push_back(low + (high - low) * (at_low / (at_low - at_high)));
-    }
-  std::sort(heights_.begin(), heights_.end());
-  rim_.resize(heights_.size());
-  integrate_rim(heights_.data(), heights_.size(), rim_.data());
-}
-
-void VisibleArea::sweep_slabs(const ClippedSegments& clipped, const DiskPart& part, int least) {
-  begin(least);
-  std::size_t before = 0;  // the height where the last slab ended
-  for (std::size_t i = 1; i < heights_.size(); ++i) {
-    const double low = heights_[i - 1], high = heights_[i], height = high - low;
-    if (!(height > kLeastLength)) continue;
-    const double y = 0.5 * (low + high);
-    const auto [left, right] = part.span(y, (rim_[i] - rim_[before]) / height);
-    before = i;
-    // L at the left end, and the crossings.
-    Slab slab{y, height, left, right, 0};
-    for (const Event& e : clipped.events)
-      if (e.at.y < y && part.on_left(e)) slab.first_complexity -= e.change;
-    crossings_.clear();
-    for (const Line& line : lines_)
-      if (line.low <= y && y < line.high) crossings_.push_back({line.at(y), line.change});
-    sort_crossings();
-    sweep(slab);
-  }
-}
-
-void VisibleArea::forget_areas() {
-  std::fill(areas_.begin() + lowest_ + kMostComplexity, areas_.begin() + highest_ + kMostComplexity + 1, 0.0);
+  out.resolved = true;
+  return true;
 }
 
 VisibleAreaResult VisibleArea::by_slabs(const ClippedSegments& clipped, const DiskPart& part, double sliver) {
-  lines_.clear();
-  for (const Segment& s : clipped.segments)
-    if (s.a.y != s.b.y) add_line(s);
-  make_heights(part, clipped);
-  sweep_slabs(clipped, part, -kMostComplexity);
-
-  // As long as the lowest is a sliver, it counts as the next.
-  while (lowest_ < highest_ && areas_[lowest_ + kMostComplexity] <= sliver * part.area()) {
-    const int next = lowest_ + 1;
-    forget_areas();
-    sweep_slabs(clipped, part, next);
-  }
-  VisibleAreaResult out = finish();
-  if (least_ > -kMostComplexity) out.aims[1] = out.aims[0];  // the less roomy may be in the sliver
-  forget_areas();
+  VisibleAreaResult out;
+  find_and_sweep_slabs(clipped, part, std::numeric_limits<std::size_t>::max() / 4, sliver, out);
   return out;
 }
 
-RowSums VisibleArea::sweep_rows(const ClippedSegments& clipped, const DiskPart& part, int rows,
-                                double sliver) {
-  RowSums sums = rows_.sweep(clipped, part, rows);
-  while (sums.complexities > 1 && sums.lowest_length <= sliver * sums.length) {
-    sums = rows_.sweep(clipped, part, rows, sums.lowest + 1.0);
-    sums.aims[1] = sums.aims[0];  // the shorter interval may be in the sliver
-  }
-  return sums;
-}
-
-/// Where rows and the exact integral of L disagree by much, something lies between rows that they do not
-/// represent: then four times as many are swept.
 VisibleAreaResult VisibleArea::by_rows(const ClippedSegments& clipped, const DiskPart& part, int rows,
                                        double sliver) {
-  const RowSums sums = sweep_rows(clipped, part, rows, sliver);
-  if (!(sums.length > 0.0)) return {part.area(), 1, {part.middle(), part.middle()}, AreaMethod::kRows};
-
-  // The share of the lowest, the mean of L, and the control variate's factor.
-  const double share = sums.lowest_length / sums.length, mean = sums.first / sums.length;
-  const double variance = sums.second / sums.length - mean * mean;
-  const double c = sums.complexities > 1 ? share * (sums.lowest - mean) / variance : 0.0;
-
-  // Corrected by the integral, or with more rows.
-  const double correction = c * (clipped.integral - part.area() * mean);
-  if (std::abs(correction) > kMostCorrection * part.area() && rows <= kMostRows / 4)
-    return by_rows(clipped, part, 4 * rows, sliver);
-  const double area = part.area() * share + correction;
-  return {std::clamp(area, 0.0, part.area()), sums.complexities, sums.aims, AreaMethod::kRows};
+  const Kind kind = kind_of(clipped, part);
+  const auto sweep = [&](Rows& family) {
+    return estimate(
+        sweep_above_slivers(sliver,
+                            [&](double least) { return family.sweep(clipped, part, rows, memory_, least); }),
+        clipped, part);
+  };
+  if (rows >= kRowsToSegments * kind.met) {
+    const Estimate alone = sweep(alone_);
+    if (agrees_with_integral(alone, kind.step)) return result_of(alone);
+  }
+  rows = (3 * rows + 3) / 4;
+  VisibleAreaResult out;
+  for (Families& families : families_) {
+    const std::array<Estimate, 2> both{sweep(families[0]), sweep(families[1])};
+    out = mean_of(both);
+    if (agree(both, kind.step)) return out;
+    rows *= 4;
+    if (find_and_sweep_slabs(clipped, part, 2 * static_cast<std::size_t>(rows), sliver, out)) return out;
+    if (rows > kMostRows) break;
+  }
+  out.resolved = false;
+  return out;
 }
 
 bool VisibleArea::by_few_rows(const ClippedSegments& clipped, const DiskPart& part, double sliver,
@@ -238,30 +235,37 @@ bool VisibleArea::by_few_rows(const ClippedSegments& clipped, const DiskPart& pa
   if (std::ranges::any_of(clipped.segments, [=](const Segment& s) { return std::abs(s.jump) != step; }))
     return false;
 
-  // Two depth complexities, but for slivers.
-  const RowSums sums = sweep_rows(clipped, part, kFewRows, sliver);
-  if (!(sums.length > 0.0)) return false;
-  const double low = sums.lowest, high = low + step;
-  const double mean = sums.first / sums.length;
-  // (L - low)(L - high) is 0 at both depth complexities, and two steps squared or more elsewhere.
-  const double elsewhere = (sums.second - (low + high) * sums.first) / sums.length + low * high;
-  if (!(elsewhere <= 2.0 * step * step * sliver)) return false;
-
-  // Rows and integral agree.
-  if (std::abs(clipped.integral - part.area() * mean) > kMostApart * step * part.area()) return false;
-  const double area = part.area() - (clipped.integral - low * part.area()) / step;
-  out = {std::clamp(area, 0.0, part.area()), sums.complexities, sums.aims, AreaMethod::kChain};
+  std::array<LineSums, 2> both;
+  for (int i = 0; i < 2; ++i) {
+    const LineSums sums = sweep_above_slivers(
+        sliver, [&](double least) { return few_[i].sweep(clipped, part, kFewRows, memory_, least); });
+    // Two depth complexities, but for slivers: (L - low)(L - high) is 0 at both, and two steps squared or more
+    // elsewhere.
+    const double low = sums.lowest, high = low + step;
+    const double mean = sums.first / sums.area;
+    const double elsewhere = (sums.second - (low + high) * sums.first) / sums.area + low * high;
+    if (!(elsewhere <= 2.0 * step * step * sliver)) return false;
+    // Rows and integral agree.
+    if (std::abs(clipped.integral - part.area() * mean) > kFewApart * step * part.area()) return false;
+    both[i] = sums;
+  }
+  if (both[0].lowest != both[1].lowest) return false;
+  const double area = part.area() - (clipped.integral - both[0].lowest * part.area()) / step;
+  out.area = std::clamp(area, 0.0, part.area());
+  out.complexities = std::popcount(both[0].met | both[1].met);
+  out.aims = choose_aims(both[0].aims[0], both[0].aims[1]);
+  out.method = AreaMethod::kChain;
   return true;
 }
 
 void VisibleArea::compute(const ClippedSegments& clipped, const DiskPart& part, int rows, double sliver,
                           VisibleAreaResult& out) {
+  out.resolved = true;
   if (area_by_chain(clipped, part, sliver, out)) return;
-  const std::size_t segments = clipped.segments.size();
-  if (segments <= kMostForSlabs)
+  if (clipped.segments.size() <= kMostForSlabs)
     out = by_slabs(clipped, part, sliver);
   else if (!(sliver > 0.0) || !by_few_rows(clipped, part, sliver, out))
-    out = by_rows(clipped, part, segments < kMany ? (3 * rows + 3) / 4 : rows, sliver);
+    out = by_rows(clipped, part, rows, sliver);
 }
 
 }  // namespace penumbra::detail

@@ -8,22 +8,23 @@
 // Chain: one chain of segments crosses D once without turning back. There are two depth complexities, and
 // the exact integral of L (clip_segments.h) gives the area.
 //
-// Slabs, for few segments: their ends and crossings divide D into slabs between heights. Within a slab
-// segments do not cross, and each interval between neighbors is a trapezoid. Its area is its width at the
-// middle height times the height of the slab; at the rim the mean of √(1-y²) over the slab takes the place
-// of the width. This is exact for any number of depth complexities.
+// Slabs, for few segments: an exact sweep (slabs.h).
 //
-// Rows, for many segments: scanlines at even distances with exact intervals (rows.h) give an area A_k for
-// every depth complexity k, good to their spacing. The exact integral of L corrects the area of the lowest
+// Rows, for many segments: two families of scanlines in two directions, at irregular heights (rows.h), give an area
+// A_k for every depth complexity k, good to their spacing. The exact integral of L corrects the area of the lowest
 // as a control variate. With p its share,
 //   area = |D| p + c (∫ L - |D| mean L),   c = cov(lowest?, L) / var L   under the areas A_k.
-// Again this is exact where only two depth complexities occur, so that rows only have to measure the
-// overlap. Where rows and integral disagree by much, four times as many rows are swept.
+// This is exact where only two depth complexities occur, so that rows only have to measure the overlap. The mean of
+// both families counts, if they agree: on the lowest depth complexity, on its area, and each with the integral of
+// L. Where they do not, something regular keeps step with a family, or is so thin that rows miss it. Then slabs are
+// swept, as many as four times the rows would cost, or else four times as many rows, and so on. What is left after
+// that is said in the result.
 //
 // Slivers: silhouettes of merged faces (merge/merged_edges.h) turn back here and there, in slivers that the
 // true silhouettes do not have, at depth complexities that may lie below the true lowest. These are left
 // out of account. A chain may turn back by as much (`is_one_chain`). Where there are several chains a few
-// rows tell whether there are two depth complexities but for slivers, and then the integral gives the area.
+// rows of both families tell whether there are two depth complexities but for slivers, and then the integral gives
+// the area.
 //
 // Aims: rays go to two points of the lowest depth complexity, far from the segments. The second serves
 // where the first is hidden, since one point may happen to lie near an edge.
@@ -32,6 +33,7 @@
 #include <array>
 
 #include "render/silhouette/areas/rows.h"
+#include "render/silhouette/areas/slabs.h"
 
 namespace penumbra::detail {
 
@@ -45,14 +47,18 @@ struct VisibleAreaResult {
   /// Two points at the lowest depth complexity, or twice the same.
   std::array<glm::dvec2, 2> aims;
   AreaMethod method = AreaMethod::kChain;
+  /// Families of rows agreed, or did not need to.
+  bool resolved = true;
 };
 
 /// Computes areas for one receiver after the other, with memory kept between them.
 class VisibleArea {
  public:
-  /// Replaces `out`. `rows`: how many scanlines where there are many segments. `sliver`: the share of D's
-  /// area up to which a lowest depth complexity counts as the next one; 0 for true silhouettes. Cost for s
-  /// segments: s for a chain, s² for slabs, and for rows that of `Rows::sweep`.
+  VisibleArea();
+
+  /// Replaces `out`. `rows`: how many scanlines of each direction where there are many segments. `sliver`: the share
+  /// of D's area up to which a lowest depth complexity counts as the next one; 0 for true silhouettes. Cost for s
+  /// segments: s for a chain, else that of `Slabs` and `Rows`.
   void compute(const ClippedSegments& clipped, const DiskPart& part, int rows, double sliver,
                VisibleAreaResult& out);
 
@@ -66,51 +72,19 @@ class VisibleArea {
                    VisibleAreaResult& out);
 
  private:
-  /// A segment, upwards: heights of its ends, x at the lower one, dx/dy, and the change of L from left to
-  /// right.
-  struct Line {
-    double low, high, x, slope;
-    int change;
-    double at(double y) const { return x + slope * (y - low); }
-  };
-  struct Crossing {
-    double x;
-    int change;
-  };
-  /// The middle of an interval in a slab, its length × height, and its length + height.
-  struct Aim {
-    double area = 0.0, reach = 1.0;
-    glm::dvec2 at{0.0};
-    double room() const { return area / reach; }
-  };
-  /// The middle height of a slab, its height, its ends at the middle, and L at the left end.
-  struct Slab {
-    double y, height, left, right;
-    int first_complexity;
-  };
+  /// Two families that share neither direction nor heights.
+  using Families = std::array<Rows, 2>;
 
-  void add_line(const Segment& segment);
-  void make_heights(const DiskPart& part, const ClippedSegments& clipped);
-  RowSums sweep_rows(const ClippedSegments& clipped, const DiskPart& part, int rows, double sliver);
-  void begin(int least);
-  void sweep_slabs(const ClippedSegments& clipped, const DiskPart& part, int least);
-  void forget_areas();
-  void sort_crossings();
-  void sweep(const Slab& slab);
-  void add_interval(const Slab& slab, double from, double to, int complexity);
-  VisibleAreaResult finish() const;
+  bool find_and_sweep_slabs(const ClippedSegments& clipped, const DiskPart& part, std::size_t most,
+                            double sliver, VisibleAreaResult& out);
 
-  Rows rows_;
-  std::vector<Line> lines_;
-  /// Heights between slabs, and ∫ √(1-y²) dy up to them.
-  std::vector<double> heights_, rim_;
-  std::vector<Crossing> crossings_;
-  /// By depth complexity, from -kMostComplexity up; 0 between uses.
-  std::vector<double> areas_;
-  /// At the lowest depth complexity so far, in slabs of either parity.
-  std::array<Aim, 2> aims_;
-  /// Depth complexities below `least_` count as that.
-  int least_ = 0, lowest_ = 0, highest_ = 0, parity_ = 0;
+  Slabs slabs_;
+  RowMemory memory_;
+  /// One family where it is enough; both with three quarters of the rows, with four and with sixteen times as many;
+  /// both with few rows. Each keeps its heights.
+  Rows alone_;
+  std::array<Families, 3> families_;
+  Families few_;
 };
 
 /// The area beside one chain in closed form, and false where there is no such chain, or little room beside

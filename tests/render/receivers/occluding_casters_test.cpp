@@ -11,16 +11,14 @@
 namespace penumbra {
 namespace {
 
-using detail::CasterPlanes;
-
 TriangleMesh box() {
   return make_box(Vec3(0.0), Vec3(1.0));
 }
 
 bool cannot_occlude(const TriangleMesh& mesh, const DiskLight& light, const std::vector<Vec3>& receivers) {
-  CasterPlanes planes(mesh, Vec3(0.0), 1.0);
-  planes.set_receivers(detail::ReceiverCloud(receivers));
-  return planes.cannot_occlude(light);
+  Scene scene;
+  scene.objects.push_back({"caster", mesh, Vec3(0.8), true});
+  return detail::find_casters_that_cannot_occlude(scene, light, {.points = receivers}).front() != 0;
 }
 
 TEST(OccludingCasters, AFloorSeenFromAboveIsOne) {
@@ -53,6 +51,27 @@ TEST(OccludingCasters, AMeshOfManyFacesOrPlanesIsNotLookedAt) {
   for (const Scene* scene : {&fine, &round})
     EXPECT_FALSE(cannot_occlude(scene->objects.back().mesh, above, {{0, 40, 0}}));
   EXPECT_FALSE(cannot_occlude(TriangleMesh(), above, {{0, 40, 0}}));
+}
+
+/// A floor, turned and moved, with receivers on it; and others a little below.
+TEST(OccludingCasters, ReceiversOnAFloorAreNotBehindIt) {
+  testing::Random random(61);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 y = random.direction(), x = glm::normalize(glm::cross(y, random.direction())),
+               z = glm::cross(x, y), at = random.point(5.0);
+    const auto place = [&](const Vec3& p) { return at + p.x * x + p.y * y + p.z * z; };
+    const double half = random.spread(1.0, 1e6);
+    const TriangleMesh floor = testing::mesh_of(
+        {place({-half, 0, -half}), place({-half, 0, half}), place({half, 0, half}), place({half, 0, -half})},
+        {{0, 1, 2}, {0, 2, 3}});
+    const DiskLight light{place({1, 5, 2}), -y, 1.0};
+    std::vector<Vec3> on;
+    for (int k = 0; k < 3'000; ++k)
+      on.push_back(place({random.uniform(-half, half), 0, random.uniform(-half, half)}));
+    EXPECT_TRUE(cannot_occlude(floor, light, on)) << i;
+    on[1'500] = place({0.3, -1e-9 * half, 0.2});
+    EXPECT_FALSE(cannot_occlude(floor, light, on)) << i;
+  }
 }
 
 TEST(OccludingCasters, AFloorThatCastsChangesNothingOfTheDBuffer) {
