@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "mesh/vectors.h"
+
 namespace penumbra::detail {
 namespace {
 
@@ -20,13 +22,28 @@ bool is_plane(const FaceCorners& f) {
   return length > 0.0 && side_of_plane(f, f.a + n * (glm::length(f.b - f.a) / length)) != 0;
 }
 
-/// Whether the disk lies in front of the plane or touches it; each point p of it has N·(p - a) of at least
-/// N·(c - w a) - r|N × m|.
+/// Whether a disk that is not distant lies in front of the plane or touches it, as far as double can tell: so does then its
+/// point farthest against the plane's normal.
+bool is_in_front(const CircularLight& light, const SeparatingPlanes::Plane& plane, const Vec3& n) {
+  const Vec3 m = unit(light.normal), within = n - glm::dot(n, m) * m;
+  const double length = glm::length(within);
+  const Vec3 farthest = length > 0.0 ? light.center - (light.radius / length) * within : light.center;
+  return plane.front * side_of_plane(plane.face, farthest) >= 0;
+}
+
+/// The same of a distant light: every point d of it has N·d of at least N·c - r|N × m|, which is known to some roundings
+/// of |N|.
+bool distant_is_in_front(const CircularLight& light, const Vec3& n) {
+  constexpr double kRounding = 0x1p-50;
+  const Vec3 m = unit(light.normal);
+  return -glm::dot(n, m) - light.radius * glm::length(glm::cross(n, m)) >=
+         -kRounding * (1.0 + light.radius) * glm::length(n);
+}
+
 bool is_in_front(const CircularLight& light, const SeparatingPlanes::Plane& plane) {
   const FaceCorners& f = plane.face;
-  const Vec3 n = double(plane.front) * glm::cross(f.b - f.a, f.c - f.a), m = light.normal;
-  const Vec3 center = light.is_distant() ? -m / glm::length(m) : light.center - f.a;
-  return glm::dot(n, center) >= light.radius * (glm::length(glm::cross(n, m)) / glm::length(m));
+  const Vec3 n = double(plane.front) * glm::cross(f.b - f.a, f.c - f.a);
+  return light.is_distant() ? distant_is_in_front(light, n) : is_in_front(light, plane, n);
 }
 
 }  // namespace

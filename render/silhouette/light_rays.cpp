@@ -10,11 +10,13 @@
 namespace penumbra::detail {
 namespace {
 
-/// To a point of the light; `aim`: of the unit disk.
-Ray ray_to(const UnitLight& light, const glm::dvec2& aim, const Receivers& receivers, std::uint32_t index) {
+/// To a point `depth` before the light; `aim`: of the unit disk.
+Ray ray_to(const UnitLight& light, double depth, const glm::dvec2& aim, const Receivers& receivers,
+           std::uint32_t index) {
   const CircularLight& disk = light.light();
   const RayStart from = start_of(receivers, index);
-  const Vec3 to_center = disk.is_distant() ? -unit(disk.normal) : disk.center - from.point;
+  const Vec3 normal = unit(disk.normal);
+  const Vec3 to_center = disk.is_distant() ? -normal : disk.center + depth * normal - from.point;
   return {from, to_center + light.offset_on_disk(aim), disk.is_distant()};
 }
 
@@ -28,7 +30,7 @@ bool crosses(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const V
 
 }  // namespace
 
-void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light,
+void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light, double depth,
                  std::span<RayTask> tasks) {
   constexpr std::size_t kRays = RayPacket::kRays;
   RayPacket packet;
@@ -38,7 +40,7 @@ void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLig
     for (std::size_t k = 0; k < kRays; ++k) {
       const RayTask& task = tasks[first + std::min(k, count - 1)];
       packet.wanted[k] = k < count ? -1 : 0;
-      packet.set(k, ray_to(light, task.aim, receivers, task.index));
+      packet.set(k, ray_to(light, depth, task.aim, receivers, task.index));
     }
     find_occluded(rays, packet, Coherence::kCoherent);
     for (std::size_t k = 0; k < count; ++k) tasks[first + k].free = !packet.is_occluded(k);
@@ -46,15 +48,15 @@ void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLig
 }
 
 bool is_hidden(const Scene& scene, const RayScene& rays, const Receivers& receivers, const UnitLight& light,
-               std::uint32_t index) {
-  const Ray ray = ray_to(light, glm::dvec2(0.0), receivers, index);
+               double depth, std::uint32_t index) {
+  const Ray ray = ray_to(light, depth, glm::dvec2(0.0), receivers, index);
   const std::optional<RayHit> hit = first_hit(rays, ray);
   if (!hit) return false;
   const TriangleMesh& mesh = scene.objects[hit->object].mesh;
   const IndexedTriangle& t = mesh.triangles()[hit->face];
   const auto points = mesh.positions();
   const Vec3& x = ray.from.point;
-  const Vec3 end = ray.endless ? x + 2.0 * hit->distance * ray.way : light.light().center;
+  const Vec3 end = ray.endless ? x + 2.0 * hit->distance * ray.way : x + ray.way;
   return crosses(x, end, points[t[0]], points[t[1]], points[t[2]]);
 }
 

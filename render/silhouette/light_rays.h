@@ -18,13 +18,14 @@ struct RayTask {
   std::size_t receiver = 0;  ///< of the tile, for whoever asks
 };
 
-/// Traces from the receivers to the disk (rays/ray_packets.h).
-void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light,
+/// Traces from the receivers to the disk (rays/ray_packets.h), and ends `depth` before it (Band::depth): rays and edges then
+/// agree on what lies in the light's plane.
+void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light, double depth,
                  std::span<RayTask> tasks);
 
 /// True where a face hides the light's center from the receiver, beyond doubt: the first face that a
 /// ray meets, by exact predicates.
 bool is_hidden(const Scene& scene, const RayScene& rays, const Receivers& receivers, const UnitLight& light,
-               std::uint32_t index);
+               double depth, std::uint32_t index);
 
 }  // namespace penumbra::detail

@@ -248,7 +248,7 @@ void Evaluation::light_up(Workspace& w) const {
 /// Where nothing crosses the disk the answer holds for all of it. It is certified if it is beyond doubt, and
 /// left to a plain ray if not.
 void Evaluation::certify(const RayTask& task, Workspace& w) const {
-  if (!task.free && !is_hidden(scene_, rays_, receivers_, light_, task.index)) {
+  if (!task.free && !is_hidden(scene_, rays_, receivers_, light_, band_.depth, task.index)) {
     add_task(w.second_tasks, task.index, task.aim, task.receiver);
     return;
   }
@@ -263,7 +263,7 @@ void Evaluation::decide(Workspace& w) const {
     out_.visibility[task.index] = task.free ? static_cast<float>(w.areas[task.receiver].area / kPi) : 0.0f;
   };
   w.second_tasks.clear();
-  trace_tasks(rays_, receivers_, light_, w.tasks);
+  trace_tasks(rays_, receivers_, light_, band_.depth, w.tasks);
   for (const RayTask& task : w.tasks) {
     const VisibleAreaResult& f = w.areas[task.receiver];
     if (w.certain[task.receiver])
@@ -273,7 +273,7 @@ void Evaluation::decide(Workspace& w) const {
     else
       add_task(w.second_tasks, task.index, f.aims[1], task.receiver);
   }
-  trace_tasks(rays_, receivers_, light_, w.second_tasks);
+  trace_tasks(rays_, receivers_, light_, band_.depth, w.second_tasks);
   for (const RayTask& task : w.second_tasks) settle(task);
   w.counts.rays += w.tasks.size();
   w.counts.second_rays += w.second_tasks.size();

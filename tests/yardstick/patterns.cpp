@@ -5,8 +5,8 @@
 #include "penumbra/render/renderer.h"
 #include "render/silhouette/areas/visible_area.h"
 #include "render/silhouette/edges/unit_light.h"
-#include "tests/render/silhouette/area_by_columns.h"
-#include "tests/render/silhouette/regular_patterns.h"
+#include "tests/render/silhouette/areas/area_by_columns.h"
+#include "tests/render/silhouette/areas/regular_patterns.h"
 #include "tests/yardstick/judging.h"
 #include "tests/yardstick/parts.h"
 

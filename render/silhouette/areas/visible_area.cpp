@@ -17,11 +17,13 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kLeastRoom = 1e-3;
 /// A lowest depth complexity of a smaller share of D counts as the next one: it may be a rounding, at which no ray
 /// can aim.
-constexpr double kLeastShare = 1e-6;
+constexpr double kLeastShare = 1e-7;
 /// The most that the areas of two families may differ, over π: some three times what they do in foliage.
 constexpr double kMostApart = 0.004;
 /// The most that a family may be off in the integral of L, over π, in steps of L or its deviations.
-constexpr double kMostOff = 0.005;
+constexpr double kMostOff = 0.012;
+/// The same where one family is all there is.
+constexpr double kMostOffAlone = 0.005;
 /// The same where rows meet one depth complexity only: nothing corrects their area then.
 constexpr double kMostMissed = 1e-4;
 /// One family is enough where it has so many rows for each segment that a line across the rows meets: then no regular
@@ -105,18 +107,19 @@ Estimate estimate(const LineSums& sums, const ClippedSegments& clipped, const Di
   return out;
 }
 
-/// Whether the rows of a family represent what there is, by the integral of L.
-bool agrees_with_integral(const Estimate& e, double step) {
+/// Whether the rows of a family represent what there is, by the integral of L. `most`: over π, in steps of L or its
+/// deviations.
+bool agrees_with_integral(const Estimate& e, double step, double most) {
   const double allowed =
-      e.variance > kLeastVariance ? kMostOff * std::max(step, std::sqrt(e.variance)) : kMostMissed * step;
+      e.variance > kLeastVariance ? most * std::max(step, std::sqrt(e.variance)) : kMostMissed * step;
   return std::abs(e.off) <= allowed * kPi;
 }
 
-/// One of the families represents what there is, and both find the same.
+/// Both families represent what there is, and find the same.
 bool agree(const std::array<Estimate, 2>& both, double step) {
   return both[0].sums.lowest == both[1].sums.lowest &&
          std::abs(both[0].area - both[1].area) <= kMostApart * kPi &&
-         (agrees_with_integral(both[0], step) || agrees_with_integral(both[1], step));
+         agrees_with_integral(both[0], step, kMostOff) && agrees_with_integral(both[1], step, kMostOff);
 }
 
 VisibleAreaResult result_of(const Estimate& e) {
@@ -212,7 +215,7 @@ VisibleAreaResult VisibleArea::by_rows(const ClippedSegments& clipped, const Dis
   };
   if (rows >= kRowsToSegments * kind.met) {
     const Estimate alone = sweep(alone_);
-    if (agrees_with_integral(alone, kind.step)) return result_of(alone);
+    if (agrees_with_integral(alone, kind.step, kMostOffAlone)) return result_of(alone);
   }
   rows = (3 * rows + 3) / 4;
   VisibleAreaResult out;

@@ -132,6 +132,7 @@ std::vector<CutFace> drop_behind(const LitCasters& casters, std::vector<SceneEdg
 Band empty_band(const LitScene& lit) {
   Band band;
   band.extent = lit.extent;
+  if (lit.depth > 0.0) band.depth = lit.depth / lit.light.per_radius();
   for (std::size_t i = 0; i < lit.boxes.size(); ++i) {
     if (!lit.casts(i)) continue;
     band.casters.push_back(lit.boxes[i]);

@@ -28,6 +28,8 @@ struct Band {
   std::vector<Bounds> casters;
   /// LitScene::extent.
   double extent = 1.0;
+  /// LitScene::depth, scene units: what lies so close to the light's plane does not cast.
+  double depth = 0.0;
   /// Of the casters; `cut_edges` of them are in `edges` in place of faces that cross the light's plane.
   std::size_t faces = 0, mesh_edges = 0, cut_edges = 0;
 

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "tests/render/render_support.h"
-#include "tests/render/silhouette/area_by_columns.h"
-#include "tests/render/silhouette/random_segments.h"
-#include "tests/render/silhouette/regular_patterns.h"
+#include "tests/render/silhouette/areas/area_by_columns.h"
+#include "tests/render/silhouette/areas/random_segments.h"
+#include "tests/render/silhouette/areas/regular_patterns.h"
 
 namespace penumbra::detail {
 namespace {

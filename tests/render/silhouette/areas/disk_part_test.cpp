@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/render/render_support.h"
-#include "tests/render/silhouette/random_segments.h"
+#include "tests/render/silhouette/areas/random_segments.h"
 
 namespace penumbra::detail {
 namespace {

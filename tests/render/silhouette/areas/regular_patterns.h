@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/silhouette/collect/tile_receiver.h"
-#include "tests/render/silhouette/random_segments.h"
+#include "tests/render/silhouette/areas/random_segments.h"
 
 namespace penumbra::testing {
 
@@ -245,7 +245,7 @@ class PatternMaker {
   }
   /// Two layers of halves each way, a quarter apart: their sum is the same wherever rows lie.
   void pairs() {
-    const double p = period_above(0.06), phase = random_.uniform(0, 1);
+    const double p = whole(1, 3) * period_above(0.06), phase = random_.uniform(0, 1);
     for (const double degrees : {0.0, kOther})
       for (const double layer : {0.0, 0.25}) grating(degrees, p, 0.5, phase + layer);
   }

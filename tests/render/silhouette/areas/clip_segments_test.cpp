@@ -7,7 +7,7 @@
 
 #include "render/silhouette/areas/visible_area.h"
 #include "tests/render/render_support.h"
-#include "tests/render/silhouette/random_segments.h"
+#include "tests/render/silhouette/areas/random_segments.h"
 
 namespace penumbra::detail {
 namespace {

@@ -1,12 +1,12 @@
 // Blinds, gratings and moirés against columns. `./run yardstick patterns` looks at more of them.
-#include "tests/render/silhouette/regular_patterns.h"
+#include "tests/render/silhouette/areas/regular_patterns.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "render/silhouette/areas/visible_area.h"
-#include "tests/render/silhouette/area_by_columns.h"
+#include "tests/render/silhouette/areas/area_by_columns.h"
 
 namespace penumbra::detail {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/render/render_support.h"
-#include "tests/render/silhouette/random_segments.h"
+#include "tests/render/silhouette/areas/random_segments.h"
 
 namespace penumbra::detail {
 namespace {
