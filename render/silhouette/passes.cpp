@@ -16,7 +16,8 @@ Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdg
                    std::size_t receivers) {
   Passes out;
   if (!merged || merged->levels().empty() || !lit.all_in_front || lit.light.is_projective()) return out;
-  const auto size = static_cast<double>(edges.size_of_band(lit.light.light()));
+  out.band_size = edges.size_of_band(lit.light.light());
+  const auto size = static_cast<double>(out.band_size);
   for (auto at = merged->levels().rbegin(); at != merged->levels().rend(); ++at) {  // coarsest first
     const MergedLevel& level = *at;
     const double in_radii = level.deviation * lit.light.per_radius();

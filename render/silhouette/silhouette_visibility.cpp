@@ -106,7 +106,8 @@ void Call::serve(const ReceiverShell& shell, const ReceiverGroups& groups, const
   const auto band_of = [&](const std::vector<std::uint32_t>& some) {
     if (passes.now < passes.last()) return make_merged_band(lit, *merged_, *passes.levels[passes.now]);
     std::vector<ReceiverRegion> regions;
-    if (passes.now > 0 && tiles.are_few(some)) regions = regions_of(some, passes, source, light, frame_);
+    if (passes.now > 0 && tiles.are_few(some, passes.band_size))
+      regions = regions_of(some, passes, source, light, frame_);
     return make_band(lit, edges_, regions);
   };
   for (; passes.now <= passes.last(); ++passes.now) {

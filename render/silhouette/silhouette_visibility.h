@@ -41,9 +41,9 @@ struct SilhouetteOptions {
   /// false: certificates only. Receivers without one are listed in `open`; a receiver that would have to look at
   /// more than some 8,000 edges is not tried.
   bool integrate = true;
-  /// Accuracy: how far silhouettes of merged faces may lie off the true ones, light radii in the light's plane
-  /// (merge/merged_edges.h), 0 to 0.1; 0: no faces are merged. Faces are merged only in casters of 1,024 faces or
-  /// more, and never where `integrate` is false.
+  /// Accuracy: how far silhouettes of merged faces may lie off the true ones, light radii in the light's plane, 0 to
+  /// 0.1; 0: no faces are merged. Visibility changes by 2.5 times that or less (merge/merged_edges.h). Faces are merged
+  /// only in casters of 1,024 faces or more, and never where `integrate` is false.
   double tolerance = 4e-3;
   /// Rays a receiver where edges do not close up (no such case is known) or where the offset moves a receiver
   /// behind the light's plane. SilhouetteCounts::fallback says how many there were.

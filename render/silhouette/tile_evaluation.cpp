@@ -16,7 +16,8 @@ constexpr std::size_t kMostToCertify = 8192;  // edges; with more, rays cost les
                                               // hardly ever found there
 constexpr std::size_t kManyBlocks = 64;  // lists of more may be narrowed down to receivers block by block,
 constexpr double kMostKept = 0.4;        // if one receiver keeps at most that share
-constexpr double kSliver = 0.5;          // of the disk, for how far silhouettes are moved
+constexpr double kMostMistaken = 2.0;    // of the disk, over how far silhouettes may be moved
+constexpr double kSliver = 0.5;          // the same, at most, of what is no depth complexity of its own
 constexpr std::array<std::size_t, 3> kPartSizes{64, 16, 4};  // receivers that share a list of blocks
 
 /// In place, member by member: a task made elsewhere and copied is read in wider pieces than it was written
@@ -52,9 +53,13 @@ void Evaluation::part(std::span<TileReceiver> receivers, Workspace& w) const {
   if (reached && !tree_.misses(shaft)) {
     if (band_.edges.size() > kShortList) shaft.tighten(receivers);  // costs more than few edges
     tree_.collect(shaft, w.blocks[0]);
-    const Deviations m = deviations(shaft, w.blocks[0]);
-    if (m.most > options_.tolerance) return leave(receivers, passes_.next(m.allowed), w);
-    w.sliver = kSliver * m.most;
+    const double most = kMostMistaken * options_.tolerance;
+    const Mistaken m = mistaken(shaft, w.blocks[0]);
+    const double share = m.area / kPi;
+    if (!(share <= most))
+      return leave(receivers, passes_.next(passes_.deviation[passes_.now] * most / share), w);
+    w.sliver = std::min(share, kSliver * options_.tolerance);
+    w.beside = m.beside;
   }
   ++w.counts.tiles;
   w.counts.merged_receivers += band_.is_merged() ? receivers.size() : 0;
@@ -79,21 +84,13 @@ void Evaluation::leave(std::span<TileReceiver> receivers, int pass, Workspace& w
   w.later |= 1u << pass;
 }
 
-/// What lies at p is seen by x magnified by x.z/(x.z - p.z) and, at a slant, by |x - p|/(x.z - p.z) once
-/// more; p in a block's box, x in that of the receivers.
-Evaluation::Deviations Evaluation::deviations(const Shaft& shaft, const std::vector<NodeMask>& list) const {
-  const Vec3 middle = shaft.middle();
-  const double lowest = middle.z - shaft.half().z, highest = middle.z + shaft.half().z;
-  Deviations out;
+/// What the receivers of a shaft may have mistaken of the merged edges in a list of blocks.
+Mistaken Evaluation::mistaken(const Shaft& shaft, const std::vector<NodeMask>& list) const {
+  Mistaken out;
+  if (!band_.is_merged()) return out;
+  const FloatShaft in_float(shaft, band_.extent);
   for_each_block(list, [&](std::size_t block) {
-    if (block >= band_.deviation.size() || !(band_.deviation[block] > 0.0f)) return;
-    const BlockBounds& b = band_.bounds[block];
-    const double below = std::max(0.0, lowest - b.high.z);
-    const double away =
-        glm::distance(middle, 0.5 * (b.low + b.high)) + glm::length(shaft.half() + 0.5 * (b.high - b.low));
-    const double magnified = away * highest / (below * below);
-    out.most = std::max(out.most, band_.deviation[block] * magnified);
-    out.allowed = std::min(out.allowed, options_.tolerance / magnified);
+    if (!band_.lanes[block].is_exact) add_mistaken(band_.lanes[block], in_float, out);
   });
   return out;
 }
@@ -102,6 +99,7 @@ void Evaluation::look_around(const Shaft& shaft, Workspace& w) const {
   if (band_.is_merged()) w.uncertain.begin_tile(band_, w.blocks[0], shaft);
   w.areas.resize(w.receivers.size());
   w.certain.resize(w.receivers.size());
+  w.right.resize(w.receivers.size());
   w.tasks.clear();
   if (are_blocks_better(w)) {
     w.counts.listed_edges += count_blocks(w.blocks[0]) * BandTree::kFanOut;
@@ -174,6 +172,7 @@ void Evaluation::integrate(std::size_t i, const DiskPart& part, Workspace& w) co
     return;
   }
   w.visible_area.compute(w.clipped, part, options_.rows, w.sliver, w.areas[i]);
+  if (!aim_surely(i, w.clipped.segments, part, w)) return;
   add_task(w.tasks, w.receivers[i].index, w.areas[i].aims[0], i);
   w.counts.segments += w.clipped.segments.size();
   ++w.counts.integrated;
@@ -212,7 +211,35 @@ void Evaluation::evaluate_blocks(std::size_t i, const std::vector<NodeMask>& lis
 /// nothing is certified there. Of merged faces some may look the other way than their patch does.
 bool Evaluation::is_certain(std::size_t i, const DiskPart& part, Workspace& w) const {
   if (!w.projected.certain || part.is_cut()) return false;
-  return !band_.is_merged() || w.uncertain.are_none(w.receivers[i], rounding_.slack);
+  return !band_.is_merged() || w.uncertain.are_none(w.receivers[i], DiskSpot{}, rounding_.slack);
+}
+
+/// Merged edges tell the right number of faces before a point.
+bool Evaluation::is_right_at(const glm::dvec2& point, std::size_t i, Workspace& w) const {
+  return w.uncertain.are_none(w.receivers[i], DiskSpot::point(point), rounding_.slack);
+}
+
+/// Where merged edges are looked at, aims at a point at which one ray tells where the lowest depth complexity is 0. That
+/// is a point at which merged edges are right. Where a point lies far from all silhouettes they are, if the ray meets no
+/// face: then there is none on the wrong side. Returns false where neither point will do; the receiver then waits.
+bool Evaluation::aim_surely(std::size_t i, std::span<const Segment> segments, const DiskPart& part,
+                            Workspace& w) const {
+  if (!band_.is_merged() || w.certain[i]) return true;
+  auto& aims = w.areas[i].aims;
+  for (const glm::dvec2& aim : {aims[0], aims[1]}) {
+    w.right[i] = !has_room(aim, w.beside, segments, part);
+    if (w.right[i] && !is_right_at(aim, i, w)) continue;
+    aims = {aim, aim};
+    return true;
+  }
+  wait(i, w);
+  return false;
+}
+
+/// For the last pass.
+void Evaluation::wait(std::size_t i, Workspace& w) const {
+  passes_.of[w.receivers[i].index] = static_cast<std::uint8_t>(passes_.last());
+  w.later |= 1u << passes_.last();
 }
 
 /// What a receiver sees, integrated; or the certificate.
@@ -228,6 +255,7 @@ void Evaluation::judge(std::size_t i, Workspace& w) const {
     result.aims[0] = result.aims[1] = middle;
     result.method = AreaMethod::kChain;
     result.resolved = true;
+    if (!aim_surely(i, {}, part, w)) return;
     add_task(w.tasks, r.index, middle, i);
   } else if (options_.integrate) {
     integrate(i, part, w);
@@ -263,11 +291,15 @@ void Evaluation::decide(Workspace& w) const {
     out_.visibility[task.index] = task.free ? static_cast<float>(w.areas[task.receiver].area / kPi) : 0.0f;
   };
   w.second_tasks.clear();
+  w.uncertain.begin_part({});
   trace_tasks(rays_, receivers_, light_, band_.depth, w.tasks);
   for (const RayTask& task : w.tasks) {
     const VisibleAreaResult& f = w.areas[task.receiver];
     if (w.certain[task.receiver])
       certify(task, w);
+    else if (!task.free && band_.is_merged() && !w.right[task.receiver] &&
+             !is_right_at(task.aim, task.receiver, w))
+      wait(task.receiver, w);
     else if (task.free || f.aims[1] == f.aims[0])
       settle(task);
     else

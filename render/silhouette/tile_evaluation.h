@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/silhouette/areas/aim_room.h"
 #include "render/silhouette/areas/visible_area.h"
 #include "render/silhouette/collect/edge_blocks.h"
 #include "render/silhouette/collect/shaft.h"
@@ -33,6 +34,7 @@ struct Workspace {
   std::vector<TileReceiver> receivers;   ///< of it, those at hand
   std::vector<VisibleAreaResult> areas;  ///< one a receiver
   std::vector<char> certain;             ///< one a receiver
+  std::vector<char> right;               ///< one a receiver: merged edges are known to be right at its aim
   std::vector<std::uint32_t> edges;
   UncertainEdges uncertain;                     ///< of merged edges
   std::array<std::vector<NodeMask>, 3> blocks;  ///< of the tile, and of its parts
@@ -41,6 +43,7 @@ struct Workspace {
   ClippedSegments clipped;
   VisibleArea visible_area;
   std::vector<RayTask> tasks, second_tasks;
+  double beside = 0.0;      ///< of the receivers at hand, see Mistaken
   double sliver = 0.0;      ///< of the receivers at hand, see VisibleArea::compute
   std::uint32_t later = 0;  ///< passes that some of the tile's receivers are left to, as bits
   std::vector<std::uint32_t> fallback, open;
@@ -69,7 +72,7 @@ class Evaluation {
         light_(light),
         options_(options),
         source_(source),
-        rounding_{certificate_slack(band_.extent), band_.is_merged() ? 0.0 : band_.extent},
+        rounding_{certificate_slack(band_.extent), band_.extent},
         passes_(passes),
         out_(out) {}
 
@@ -89,16 +92,12 @@ class Evaluation {
   void part(std::span<TileReceiver> receivers, Workspace& w) const;
   void leave(std::span<TileReceiver> receivers, int pass, Workspace& w) const;
   bool is_reached(const Shaft& shaft) const;
-  /// Of the merged edges in a list of blocks, for the receivers of a shaft.
-  struct Deviations {
-    /// How far silhouettes lie off the true ones at most, in the light's plane, light radii.
-    double most = 0.0;
-    /// How large MergedEdge::deviation may be so that `most` is within the tolerance, light radii.
-    double allowed = std::numeric_limits<double>::infinity();
-  };
-  Deviations deviations(const Shaft& shaft, const std::vector<NodeMask>& list) const;
+  Mistaken mistaken(const Shaft& shaft, const std::vector<NodeMask>& list) const;
   void look_around(const Shaft& shaft, Workspace& w) const;
   bool is_certain(std::size_t i, const DiskPart& part, Workspace& w) const;
+  bool is_right_at(const glm::dvec2& point, std::size_t i, Workspace& w) const;
+  bool aim_surely(std::size_t i, std::span<const Segment> segments, const DiskPart& part, Workspace& w) const;
+  void wait(std::size_t i, Workspace& w) const;
   bool are_blocks_better(Workspace& w) const;
   void divide(std::size_t first, std::size_t last, Workspace& w) const;
   void divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const;

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     std::puts(
         "penumbra_yardstick [PATTERN...]\nJudges methods by rays in double and by closed forms. A case is "
         "PART/CASE/METHOD; a PATTERN is\na part, or such a path with * in it: cases/ground_*/silhouette\n"
-        "Parts: cases lights moves suns plates patterns certificates");
+        "Parts: cases lights moves suns plates patterns merging certificates");
     return 0;
   }
   try {
@@ -20,13 +20,10 @@ int main(int argc, char** argv) {
     const struct {
       const char* name;
       void (*judge)(Report&);
-    } parts[] = {{"cases", judge_cases},
-                 {"lights", judge_lights},
-                 {"moves", judge_moves},
-                 {"suns", judge_suns},
-                 {"plates", judge_plates},
-                 {"patterns", judge_patterns},
-                 {"certificates", judge_certificates}};
+    } parts[] = {{"cases", judge_cases},     {"lights", judge_lights},
+                 {"moves", judge_moves},     {"suns", judge_suns},
+                 {"plates", judge_plates},   {"patterns", judge_patterns},
+                 {"merging", judge_merging}, {"certificates", judge_certificates}};
     for (const auto& part : parts)
       if (report.wants(part.name)) part.judge(report);
     return report.conclude();

@@ -17,6 +17,8 @@ void judge_suns(Report& report);
 void judge_plates(Report& report);
 /// patterns.cpp: areas between the edges of blinds, gratings and moirés, and such layers as scenes.
 void judge_patterns(Report& report);
+/// merging.cpp: V with merged faces against V without, over 300 casters that are hard to merge.
+void judge_merging(Report& report);
 /// certificates.cpp: certificates of every scene of data/scenes, and of ten meshes in ten poses.
 void judge_certificates(Report& report);
 

@@ -26,6 +26,8 @@ const std::vector<std::string>& required() {
       "certificates/*",
       "cases/blinds/silhouette",
       "patterns/*/silhouette",
+      "merging/bump_plate/silhouette",
+      "merging/bodies/silhouette",
   };
   return kRequired;
 }

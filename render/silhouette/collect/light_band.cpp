@@ -178,8 +178,8 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
   };
   Band band = empty_band(lit);
   const std::vector<std::uint32_t> blocks = merged.blocks_of(level, lit.light.light(), lit.cannot_occlude);
+  const MergedLevel::EdgeCounts counts = level.count_edges(blocks);
   band.bounds.resize(blocks.size());
-  band.deviation.resize(blocks.size());
   band.lanes = LargeArray<MergedLanes>(blocks.size());
   // Only the level's last block may have fewer than eight edges.
   const std::size_t missing = !blocks.empty() && blocks.back() + 1 == level.block_count()
@@ -190,12 +190,12 @@ Band make_merged_band(const LitScene& lit, const MergedEdges& merged, const Merg
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, blocks.size(), kBlocksPerTask), [&](const auto& range) {
         for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const MergedBlock block = level.block(lit.scene, blocks[i], LightUnits{lit.light}, lit.extent);
+          const MergedBlock block =
+              level.block(lit.scene, blocks[i], LightUnits{lit.light}, lit.extent, counts);
           std::copy_n(block.edges.begin(), block.count, band.edges.data() + i * MergedBlock::kEdges);
           std::copy_n(block.sides.begin(), block.count, band.sides.data() + i * MergedBlock::kEdges);
           band.bounds[i] = block.bounds();
           band.lanes[i] = MergedLanes(block, lit.extent);
-          band.deviation[i] = static_cast<float>(block.deviation * lit.light.per_radius());
         }
       });
   return band;

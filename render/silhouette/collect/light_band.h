@@ -36,17 +36,15 @@ struct Band {
   // Of a band of merged edges, else empty.
   /// One a block of eight edges: the bounds of the edges and of the faces that they stand for.
   std::vector<BlockBounds> bounds;
-  /// One a block: the largest deviation of its edges (MergedEdge::deviation).
-  std::vector<float> deviation;
   /// One a block: the edges in float.
   LargeArray<MergedLanes> lanes;
   /// One an edge: what its sides stand for.
   std::vector<MergedSides> sides;
 
-  bool is_merged() const { return !deviation.empty(); }
+  bool is_merged() const { return !sides.empty(); }
   std::size_t bytes() const {
     return edges.size() * sizeof(BandEdge) + sides.size() * sizeof(MergedSides) +
-           bounds.size() * (sizeof(BlockBounds) + sizeof(float) + sizeof(MergedLanes));
+           bounds.size() * (sizeof(BlockBounds) + sizeof(MergedLanes));
   }
 };
 

@@ -7,13 +7,16 @@
 // curved sides or more (MergedSides). So it is no silhouette across the disk where both its ends lie beyond
 // some plane by the margin, and the receivers and the disk lie on that plane's other side. For the
 // receivers of a shaft these are the sides of the shaft. For one receiver x it is the plane through x that
-// touches the disk towards the middle of the edge.
+// touches the disk towards the middle of the edge. The same serves for a smaller spot in place of the disk.
+//
+// Also: what of merged edges may be mistaken, as a share of the disk; the bound of merge/merged_edges.h.
 //
 // All is in float with the margin of block_bounds.h. What is left is tested in double (uncertain_edges.h).
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 
 #include "render/silhouette/collect/shaft.h"
 #include "render/silhouette/merge/merged_lanes.h"
@@ -28,17 +31,45 @@ struct FloatShaft {
   std::array<float, kSides> x, y, slope, least;
   /// By how much that changes over a distance of 1, at most.
   std::array<float, kSides> steep;
-  /// The middle of the receivers' box, and half its diagonal.
-  std::array<float, 3> middle;
+  /// The receivers' box: its middle, half its sides and half its diagonal, enlarged by the margin.
+  std::array<float, 3> middle, half;
   float size;
+  /// The least and the largest height of a receiver, by the margin lower and higher.
+  float lowest, highest;
+  /// The margin of a value of a plane.
+  float grain;
+  /// At most that much do distances grow by slant where they are seen on the disk, less 1.
+  float slant;
 };
 
-/// One receiver.
-struct FloatEye {
-  FloatEye(const TileReceiver& receiver, double extent);
-  std::array<float, 3> at;
-  float per_z, grain;
+/// All of the unit disk, or one point of it.
+struct DiskSpot {
+  glm::dvec2 center{0.0};
+  double radius = 1.0;
+  static DiskSpot point(const glm::dvec2& at) { return {at, 0.0}; }
+  bool is_point() const { return radius == 0.0; }
 };
+
+/// One receiver that looks at a spot; x and y from the middle of the spot.
+struct FloatEye {
+  FloatEye(const TileReceiver& receiver, const DiskSpot& spot, double extent);
+  std::array<float, 3> at;
+  std::array<float, 2> spot;
+  float radius, per_z, grain;
+};
+
+/// What a receiver may have mistaken, and where.
+struct Mistaken {
+  /// A bound on the area of the disk at which merged edges tell a wrong number of faces. Infinite, or not a number,
+  /// where something that may be mistaken is not wholly nearer to the light than all receivers.
+  float area = 0.0f;
+  /// What an edge stands for that is a silhouette is seen on the disk within that distance of it.
+  float beside = 0.0f;
+};
+
+/// Adds those of eight edges, for each of the receivers of a shaft. Compiled for several instruction sets with the
+/// same result.
+void add_mistaken(const MergedLanes& edges, const FloatShaft& receivers, Mistaken& out);
 
 /// Bit i is set where edge i may stand for a silhouette across the disk. Compiled for several instruction
 /// sets with the same result.

@@ -50,20 +50,25 @@ static_assert(sizeof(BandEdge) == 128);
 struct Rounding {
   /// The certificate's margin at the disk, light radii (certificate_slack).
   double slack;
-  /// The largest coordinate, M above; 0 where planes are not those of single faces, so that nothing but their own
-  /// tolerance is known of them.
+  /// The largest coordinate, M above; 0 where nothing but its own tolerance is to be used of a plane.
   double extent = 0.0;
 };
+
+/// Accuracy. The tolerance of a plane that is known as well as coordinates are, over the largest coordinate. Faces have
+/// larger ones.
+inline constexpr double kPlaneGrain = 0x1p-46;
 
 /// The side of a face on which x lies: 1 where the face is seen counter-clockwise, -1, or 0 where its plane contains x
 /// as far as double can tell. `a`: a corner of the face.
 ///
 /// The plane's tolerance holds for all points up to 4 M away. Of a point at distance d from the corner, n·(x - a) is
-/// off by d/(4 M) of it, and by a rounding of coordinates.
+/// off by d/(4 M) of it, and by a rounding of coordinates. That is not so for the mean plane of merged faces, which need
+/// not hold the corner: its tolerance is kPlaneGrain M or less. Where that is 0, every point lies on some side of it.
 inline int side_of(const FacePlane& plane, const Vec3& a, const Vec3& x, double extent) {
   double value = plane.value(x), tolerance = plane.tolerance;
-  if (!(std::abs(value) > tolerance) && extent > 0.0) {
-    const double grain = 0x1p-46 * extent;
+  if (tolerance == 0.0) return value > 0.0 ? 1 : -1;
+  const double grain = kPlaneGrain * extent;
+  if (!(std::abs(value) > tolerance) && extent > 0.0 && tolerance > grain) {
     value = glm::dot(plane.normal, x - a);
     tolerance = grain + (tolerance - grain) * glm::distance(x, a) / (4.0 * extent);
   }
@@ -82,7 +87,7 @@ inline FacePlane face_plane(const Vec3& a, const Vec3& b, const Vec3& c, double 
   if (!(length > 0.0)) return {Vec3(0.0), 0.0, std::numeric_limits<double>::infinity()};
   const Vec3 n = normal / length;
   const double spread = (glm::length(e1) + glm::length(e2)) / length;
-  return {n, -glm::dot(n, a), 0x1p-46 * extent * (1.0 + 4.0 * extent * spread)};
+  return {n, -glm::dot(n, a), kPlaneGrain * extent * (1.0 + 4.0 * extent * spread)};
 }
 
 /// A mesh's arrays, and its faces and edges in some frame. `to_frame` takes a position to that frame;

@@ -1,6 +1,7 @@
 #include "render/silhouette/merge/caster_merger.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -14,7 +15,7 @@ namespace penumbra::detail {
 namespace {
 
 // Accuracy.
-/// A chain is straight where it sweeps less than that, over its length squared: rounding. Held by the tests
+/// A chain is straight where it strays less than that, over its length: rounding. Held by the tests
 /// MergedEdges.OfASheetAreItsSides and MergedEdges.LeaveFewEdgesOfFineSurfaces.
 constexpr double kStraight = 0x1p-36;
 
@@ -24,9 +25,10 @@ EdgeChain chain_of(const Edge& e) {
           e.is_boundary() ? MergedEdge::kNoSide : number(e.right)};
 }
 
-/// The length of the part of an area across a normal.
-double cross_part(const Vec3& area, const Vec3& normal) {
-  return glm::length(area - glm::dot(area, normal) * normal);
+/// The point of the segment a b that is nearest to p.
+Vec3 nearest(const Vec3& a, const Vec3& b, const Vec3& p) {
+  const Vec3 along = b - a;
+  return a + glm::clamp(glm::dot(p - a, along) / glm::dot(along, along), 0.0, 1.0) * along;
 }
 
 /// The edges that meet in a vertex: how many, and of two the one that ends and the one that begins there,
@@ -49,7 +51,15 @@ std::size_t CasterMerger::count_parts(double tolerance) const {
 }
 
 double CasterMerger::deviation(const EdgeChain& c) const {
-  return std::max(error_of(c.left), error_of(c.right)) + swept_width(c.left, c.right, c.swept, c.from, c.to);
+  return std::max(error_of(c.left), error_of(c.right)) + left_by(c);
+}
+
+double CasterMerger::swept(const EdgeChain& c) const {
+  return c.across + c.along * slant(c).tilted;
+}
+
+double CasterMerger::swept_at_any(const EdgeChain& c) const {
+  return c.along * slant(c).thick;
 }
 
 double CasterMerger::margin(const EdgeChain& c) const {
@@ -72,10 +82,13 @@ void CasterMerger::merge(double tolerance) {
 
   // Edges between two of them, the side of the lower number on the left.
   std::vector<EdgeChain> edges;
+  std::vector<Vec3> before;  // the directions halfway between their sides' normals, for those that stray
   const auto add = [&](EdgeChain c) {
-    c.left = merged(c.left), c.right = merged(c.right);
-    if (c.left == c.right) return;
-    if (c.left > c.right) c = {c.to, c.from, c.right, c.left, -c.swept, c.stray};
+    const std::uint32_t left = merged(c.left), right = merged(c.right);
+    if (left == right) return;
+    if (c.stray > 0.0) before.push_back(middle_of(c.left, c.right));
+    c.left = left, c.right = right;
+    if (left > right) std::swap(c.from, c.to), std::swap(c.left, c.right);
     edges.push_back(c);
   };
   if (chains_.empty())
@@ -84,12 +97,30 @@ void CasterMerger::merge(double tolerance) {
     for (const EdgeChain& c : chains_) add(c);
   patches_ = std::move(partition.patches);
 
+  // What lay along the old sides lies along the new ones, but for how much these are turned.
+  auto old = before.begin();
+  for (EdgeChain& c : edges) {
+    if (!(c.stray > 0.0)) continue;
+    const Vec3 now = middle_of(c.left, c.right), was = *old++;
+    const double turned = std::min(glm::distance(now, was), glm::distance(now, -was));
+    const double across = c.across, along = c.along;
+    c.across += turned * along, c.along += turned * across;
+    c.lift = std::min(c.stray, c.lift + turned * c.stray);
+  }
   join(edges, tolerance);
 }
 
 double CasterMerger::error_of(std::uint32_t side) const {
   if (side == MergedEdge::kNoSide || side < faces()) return 0.0;
   return patches_[side - faces()].error;
+}
+
+double CasterMerger::thick_of(std::uint32_t side) const {
+  return side == MergedEdge::kNoSide || side < faces() ? 0.0 : patches_[side - faces()].thick;
+}
+
+double CasterMerger::radius_of(std::uint32_t side) const {
+  return side == MergedEdge::kNoSide || side < faces() ? 0.0 : patches_[side - faces()].radius;
 }
 
 Vec3 CasterMerger::normal_of(std::uint32_t side) const {
@@ -99,22 +130,22 @@ Vec3 CasterMerger::normal_of(std::uint32_t side) const {
   return unit(glm::cross(mesh_.positions()[t[1]] - a, mesh_.positions()[t[2]] - a));
 }
 
-double CasterMerger::distance_from(std::uint32_t vertex, const EdgeChain& edge) const {
-  const Vec3 a = position(edge.from), along = position(edge.to) - a, p = position(vertex) - a;
-  const double t = glm::clamp(glm::dot(p, along) / glm::dot(along, along), 0.0, 1.0);
-  return glm::distance(p, t * along);
+Vec3 CasterMerger::middle_of(std::uint32_t left, std::uint32_t right) const {
+  return right == MergedEdge::kNoSide ? normal_of(left) : unit(normal_of(left) + normal_of(right));
 }
 
-/// How far an edge displaces a silhouette that leaves its chain by the area `swept`.
-double CasterMerger::swept_width(std::uint32_t left, std::uint32_t right, const Vec3& swept,
-                                 std::uint32_t from, std::uint32_t to) const {
-  const double length = glm::distance(position(from), position(to));
-  if (!(length > 0.0)) return std::numeric_limits<double>::infinity();
-  if (glm::length(swept) <= kStraight * length * length) return 0.0;
-  if (right == MergedEdge::kNoSide) return glm::length(swept) / length;
-  const Vec3 l = normal_of(left), r = normal_of(right), middle = unit(l + r);
-  const double along = std::abs(glm::dot(swept, middle)), apart = std::min(1.0, glm::distance(l, r));
-  return (cross_part(swept, middle) + along * apart) / length;
+CasterMerger::Slant CasterMerger::slant(const EdgeChain& c) const {
+  if (c.right == MergedEdge::kNoSide) return {1.0, 0.0};
+  const Vec3 l = normal_of(c.left), r = normal_of(c.right);
+  const double apart = glm::distance(l, r), both = glm::length(l + r);
+  if (apart >= both) return {1.0, 0.0};
+  return {apart / both, 2.0 * std::max(thick_of(c.left), thick_of(c.right)) / both};
+}
+
+double CasterMerger::left_by(const EdgeChain& c) const {
+  const Slant s = slant(c);
+  const double radius = std::max(radius_of(c.left), radius_of(c.right));
+  return c.lift + c.stray * std::min(1.0, s.tilted + (s.thick > 0.0 ? s.thick / radius : 0.0));
 }
 
 /// Chains between the same two sides become one, as far as the tolerance allows.
@@ -136,8 +167,9 @@ void CasterMerger::join(const std::vector<EdgeChain>& edges, double tolerance) {
   // Follow each chain from its first edge, then those that close up from any edge.
   chains_.clear();
   std::vector<char> done(edges.size(), 0);
+  std::vector<const EdgeChain*> way;
   const auto follow = [&](std::uint32_t first) {
-    std::vector<const EdgeChain*> way{&edges[first]};
+    way = {&edges[first]};
     done[first] = 1;
     while (goes_on(way.back()->to)) {
       const std::uint32_t next = meetings[way.back()->to].out - 1;
@@ -153,32 +185,60 @@ void CasterMerger::join(const std::vector<EdgeChain>& edges, double tolerance) {
     if (!done[i]) follow(i);
 }
 
-/// Replaces edges that follow on each other by as few as the tolerance allows.
-void CasterMerger::straighten(const std::vector<const EdgeChain*>& way, double tolerance) {
-  EdgeChain chain = *way.front();
-  std::vector<std::uint32_t> passed;  // vertices that it leaves out
-  const auto finish = [&] {
-    double stray = 0.0;
-    for (const std::uint32_t v : passed) stray = std::max(stray, distance_from(v, chain));
-    chain.stray += stray;
-    chains_.push_back(chain);
-    passed.clear();
-  };
-  for (const EdgeChain* more : std::span(way).subspan(1)) {
-    const Vec3 start = position(chain.from), middle = position(chain.to);
-    const Vec3 swept =
-        chain.swept + more->swept + 0.5 * glm::cross(middle - start, position(more->to) - start);
-    if (swept_width(chain.left, chain.right, swept, chain.from, more->to) <= tolerance) {
-      passed.push_back(chain.to);
-      chain.swept = swept;
-      chain.to = more->to;
-      chain.stray = std::max(chain.stray, more->stray);
-    } else {
-      finish();
-      chain = *more;
-    }
+/// One edge in place of edges that follow on each other. Its `stray` is infinite where it has no length.
+EdgeChain CasterMerger::joined(std::span<const EdgeChain* const> way) const {
+  EdgeChain out = *way.front();
+  out.to = way.back()->to;
+  const Vec3 from = position(out.from), to = position(out.to);
+  const double length = glm::distance(from, to);
+  if (!(length > 0.0)) {
+    out.stray = out.lift = std::numeric_limits<double>::infinity();
+    return out;
   }
-  finish();
+  const Vec3 normal = middle_of(out.left, out.right);
+  double stray = 0.0, lift = 0.0, along = 0.0, across = 0.0;
+  const auto add = [&](const Vec3& area) {
+    const double part = glm::dot(area, normal);
+    along += std::abs(part);
+    across += glm::length(area - part * normal);
+  };
+  Vec3 before = from, foot_before = from;
+  for (const EdgeChain* c : way) {
+    const Vec3 p = position(c->to), foot = nearest(from, to, p), off = p - foot;
+    stray = std::max(stray, glm::length(off));
+    lift = std::max(lift, std::abs(glm::dot(off, normal)));
+    add(0.5 * glm::cross(p - before, foot - before));
+    add(0.5 * glm::cross(foot - before, foot_before - before));
+    before = p, foot_before = foot;
+    if (c == way.front()) continue;
+    out.along += c->along, out.across += c->across;
+    out.stray = std::max(out.stray, c->stray), out.lift = std::max(out.lift, c->lift);
+  }
+  if (stray <= kStraight * length) return out;
+  out.along += along, out.across += across;
+  out.stray += stray, out.lift += lift;
+  return out;
+}
+
+/// Replaces edges that follow on each other by as few as the tolerance allows: from each on as many as will
+/// do, looked for by steps that double and halve. Cost O(edges · log edges).
+void CasterMerger::straighten(std::span<const EdgeChain* const> way, double tolerance) {
+  while (!way.empty()) {
+    EdgeChain chain = *way.front();
+    std::size_t count = 1;
+    bool doubles = true;
+    for (std::size_t step = 1; step > 0;) {
+      const std::size_t more = std::min(step, way.size() - count);
+      if (more == 0) break;
+      const EdgeChain longer = joined(way.first(count + more));
+      const bool holds = left_by(longer) <= tolerance;
+      if (holds) chain = longer, count += more;
+      doubles = doubles && holds;
+      step = doubles ? 2 * step : step / 2;
+    }
+    chains_.push_back(chain);
+    way = way.subspan(count);
+  }
 }
 
 }  // namespace penumbra::detail

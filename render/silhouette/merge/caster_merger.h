@@ -5,14 +5,19 @@
 // between them. Chains of edges between the same two sides are replaced by one edge from end to end, as far
 // as the tolerance allows; every chain keeps its ends, so the surface stays as closed as it was.
 //
-// A merged edge displaces the silhouette because its sides are patches (FacePatch::error), and because it
-// leaves the chain. Let S be the area between chain and edge. Where the sides look almost the same way the
-// chain is seen edge-on: of S the part across the surface counts, and of the part along it as much as the
-// normals of the sides differ. That over the length of the edge is how far it displaces the silhouette.
+// Where both sides look the same way the edge is no silhouette, and where it runs does not matter. Else what
+// lies between chain and edge is taken for the wrong side. Let Q be the surface between them that joins each
+// point of the chain to the nearest point of the edge, n the direction halfway between the normals l and r of
+// the sides. x sees Q's parts across n in full. It sees parts along the surface at a slant: the mean planes of
+// the sides have values of opposite signs at x, so for p near the edge and ν = |l + r|
+//   |n·(x - p)| ≤ (|l - r| |x - p| + 2 off) / ν,  off: the distances of p from both planes,
+// and off is the thickness of the sides or less. Sums over Q are of magnitudes, and what a chain strays counts
+// at its largest: nothing cancels, and a tooth in a long straight border does not become smaller with it.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "penumbra/mesh/triangle_mesh.h"
@@ -26,10 +31,11 @@ struct EdgeChain {
   std::uint32_t from, to;
   /// As in FacePatches::Partition::side; MergedEdge::kNoSide without a right one.
   std::uint32_t left, right;
-  /// The area between the chain and the edge from end to end, as a vector.
-  Vec3 swept{0.0};
-  /// The largest distance of a vertex that was left out from the edge. Scene units.
-  double stray = 0.0;
+  /// The area of Q along the surface, and across it. Sums of magnitudes.
+  double along = 0.0, across = 0.0;
+  /// The largest distance of a point of the chain from the edge, and the part of it off the surface. Scene
+  /// units.
+  double stray = 0.0, lift = 0.0;
 };
 
 /// Refers to the mesh. A mesh of few faces keeps its faces and edges as they are.
@@ -47,6 +53,10 @@ class CasterMerger {
   std::size_t count_parts(double tolerance) const;
   /// How far an edge may displace a silhouette (MergedEdge::deviation). Scene units.
   double deviation(const EdgeChain& chain) const;
+  /// What may be taken for the wrong side between the chain and the edge: MergedEdge::swept, an area, and
+  /// MergedEdge::swept_at_any, an area times a length.
+  double swept(const EdgeChain& chain) const;
+  double swept_at_any(const EdgeChain& chain) const;
   /// How far beside an edge what it stands for may be seen (MergedEdge::margin). Scene units.
   double margin(const EdgeChain& chain) const;
   /// Merges faces, then chains of edges. The tolerance is larger than before; scene units. Cost O(F).
@@ -56,12 +66,21 @@ class CasterMerger {
   std::size_t faces() const { return mesh_.triangles().size(); }
   const Vec3& position(std::uint32_t vertex) const { return mesh_.positions()[vertex]; }
   double error_of(std::uint32_t side) const;
+  double thick_of(std::uint32_t side) const;
+  double radius_of(std::uint32_t side) const;
   Vec3 normal_of(std::uint32_t side) const;
-  double distance_from(std::uint32_t vertex, const EdgeChain& edge) const;
-  double swept_width(std::uint32_t left, std::uint32_t right, const Vec3& swept, std::uint32_t from,
-                     std::uint32_t to) const;
+  Vec3 middle_of(std::uint32_t left, std::uint32_t right) const;
+  /// How much of what lies along the surface a receiver sees where the edge is a silhouette: no more than `tilted` times
+  /// its distance, plus `thick`, a length.
+  struct Slant {
+    double tilted, thick;
+  };
+  Slant slant(const EdgeChain& chain) const;
+  /// How far a silhouette is displaced by leaving the chain, for a receiver at the distance of the sides' radius.
+  double left_by(const EdgeChain& chain) const;
   void join(const std::vector<EdgeChain>& edges, double tolerance);
-  void straighten(const std::vector<const EdgeChain*>& way, double tolerance);
+  EdgeChain joined(std::span<const EdgeChain* const> way) const;
+  void straighten(std::span<const EdgeChain* const> way, double tolerance);
 
   const TriangleMesh& mesh_;
   std::optional<FacePatches> tree_;

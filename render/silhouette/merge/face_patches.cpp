@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <numeric>
 
@@ -19,7 +20,8 @@ namespace {
 /// The most that normals of a patch differ from their mean. Held by the test
 /// FacePatches.NoClosedSurfaceIsWithinOne.
 constexpr double kMostTilt = 0.5;
-/// An error that is rounding, over the radius of the patch. Held by the test FacePatches.AFlatSideIsOne.
+/// An error or a thickness that is rounding, over the radius of the patch. Held by the test
+/// FacePatches.AFlatSideIsOne.
 constexpr double kNothing = 0x1p-36;
 /// The difference of unit normals of neighboring faces that lie in one plane, but for rounding to float.
 /// Held by the test FacePatches.AFlatSideIsOne.
@@ -85,15 +87,15 @@ struct Placed {
   std::uint32_t flat = 0;
 };
 
-/// Sums over faces that tell the error of a patch: Σ a_f |t_f|² = 2 (Σ a_f - |Σ a_f n_f|), and Σ a_f |t_f|
-/// is no more than the root of that times Σ a_f.
+/// Sums over faces that tell the error of a patch: Σ a_f |n_f - m|² = Σ a_f - |Σ a_f n_f|² / Σ a_f.
 struct Sums {
   Vec3 areas{0.0};
   double area = 0.0;
   Sums operator+(const Sums& o) const { return {areas + o.areas, area + o.area}; }
   /// Without the part that comes from where the faces lie.
   float error() const {
-    return static_cast<float>(0.5 * std::sqrt(2.0 * std::max(0.0, area - glm::length(areas))));
+    const double apart = area > 0.0 ? area - glm::dot(areas, areas) / area : 0.0;
+    return static_cast<float>(0.5 * std::sqrt(std::max(0.0, apart)));
   }
 };
 
@@ -193,27 +195,34 @@ FacePatch FacePatches::patch(std::size_t first, std::size_t last) const {
     height += glm::dot(area_of(corners_[i]), corners_[i][0] - middle);
   out.center = middle + (height / length) * out.normal;
 
-  // How far the faces are from it.
-  double turned = 0.0, apart = 0.0;
-  for (std::size_t i = first; i < last; ++i) {
+  for (std::size_t i = first; i < last; ++i)
     for (const Vec3& p : corners_[i]) {
       out.radius = std::max(out.radius, glm::distance(out.center, p));
       out.thick = std::max(out.thick, std::abs(glm::dot(out.normal, p - out.center)));
     }
+
+  // How far the faces are from it.
+  const Vec3 mean = sum / area;
+  double errors = 0.0, shifts = 0.0;
+  for (std::size_t i = first; i < last; ++i) {
     const Vec3 face = area_of(corners_[i]);
     const double a = glm::length(face);
     if (!(a > 0.0)) continue;
-    const Vec3 normal = face / a;
+    const Vec3 normal = face / a, turn = normal - mean;
     const double tilt = glm::distance(normal, out.normal);
     const double off = std::abs(glm::dot(normal, corners_[i][0] - out.center));
     if (!(tilt < kMostTilt)) return out;
     out.tilt = std::max(out.tilt, tilt);
     out.spread = std::max(out.spread, off);
-    turned += a * tilt;
-    apart += a * off;
+    out.turned += (area * a) * glm::outerProduct(turn, turn);
+    shifts += a * off * off;
+    const double apart = glm::length(turn) + off / out.radius;
+    errors += a * apart * apart;
   }
-  out.error = 0.5 * (turned + apart / out.radius) / std::sqrt(area);
-  if (out.error <= kNothing * out.radius) out.error = 0.0;
+  out.area = length;
+  out.shifted = std::sqrt(area * shifts);
+  out.error = 0.5 * std::sqrt(errors);
+  if (std::max(out.error, out.thick) <= kNothing * out.radius) out.error = 0.0;
   return out;
 }
 

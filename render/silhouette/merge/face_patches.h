@@ -4,22 +4,35 @@
 // In: a mesh, once. Out: for any tolerance the largest groups of faces that keep it.
 //
 // A patch counts as looking at x where its mean plane does, all of it. Where x sees it edge-on some of its
-// faces look the other way. Let f's area be a_f, its signed distance from x v_f, and v the mean of v_f by
-// area. The area that is taken for the wrong side, times its distance, is at most half of Σ a_f |v_f - v|
-// (as much as |Σ a_f v_f| falls short of Σ a_f |v_f|). With n_f = n + t_f and c on the mean plane, |v_f -
-// v| ≤ |t_f| |x - c| + |n_f·(p_f - c)|. A silhouette crosses the patch over a length of about √(Σ a_f). So
-// the silhouette is displaced by no more than
-//   error · |x - c|,  error = (Σ a_f |t_f| + Σ a_f |n_f·(p_f - c)| / radius) / (2 √(Σ a_f)),
-// a distance on the surface times the angle under which it is seen. `radius` is that of a ball around the
-// patch, and x lies outside of it.
+// faces look the other way: they are taken for the wrong side. What that costs is bounded for every x, and
+// nothing is left out of the bound.
+//
+// Let f's area be a_f, A = Σ a_f, its normal n_f, p_f a corner, its signed distance from x v_f; v and σ² the
+// mean and the variance of v_f by area. v has the sign of the mean plane, say it is positive. Then
+//   Σ_wrong a_f |v_f| = ½ Σ a_f (|v_f| - v_f) ≤ ½ A (√(σ² + v²) - v),
+// since the mean of |v_f| is no more than the root of that of v_f². Let m be the mean of n_f by area, c a point
+// on the mean plane, y = x - c and o_f = n_f·(c - p_f). Then A v = area · normal·y, with area = A |m|, and
+// v_f - v = (n_f - m)·y + o_f. So
+//   A σ ≤ √(yᵀ turned y) + shifted,  turned = A Σ a_f (n_f - m)(n_f - m)ᵀ,  shifted = √(A Σ a_f o_f²).
+// Seen from x at the height H over a plane, f covers H² |v_f| ∫ w^-3 of that plane, w how far its points lie
+// below x. So what is taken for the wrong side covers H²/w³ · Σ_wrong a_f |v_f| or less.
+//
+// `error` tells which faces to merge: it is ½ √(Σ a_f (|n_f - m| + |o_f|/radius)²). With y of length 1, a part of
+// the patch with the area a has at most error · √a taken for the wrong side (Cauchy and Schwarz), and a
+// silhouette crosses it over a length of about √a. So `error` is how far a silhouette is displaced, over the
+// distance of the receiver. Flat faces around a bump do not make it smaller.
 //
 // On a smooth surface the error falls with the area of the patch. Flat patches have no error, however large
 // they are. So faces in one plane that hang together are put together first ("flats"; most have one face),
 // and then flats that lie close together.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <limits>
 #include <vector>
 
@@ -41,13 +54,23 @@ struct FacePatch {
   double spread = 0.0;
   /// The largest distance of a corner from the mean plane.
   double thick = 0.0;
-  /// How far it displaces a silhouette, over the distance of the receiver; see above.
+  /// What tells how much of it may be taken for the wrong side; see above.
+  double area = 0.0, shifted = 0.0;
+  glm::dmat3 turned{0.0};
+  /// How far that displaces a silhouette, over the distance of the receiver; see above. A length.
   double error = std::numeric_limits<double>::infinity();
   /// One of its faces.
   FaceId first{0};
 
-  /// All faces lie in one plane, but for rounding to float.
-  bool is_flat() const { return tilt <= 0x1p-14; }
+  /// All faces lie in one plane, but for rounding of doubles. What is taken for the wrong side is as little.
+  bool is_flat() const { return error == 0.0; }
+  /// Σ_wrong a_f |v_f| for x, or more.
+  double mistaken(const Vec3& x) const {
+    const Vec3 y = x - center;
+    const double across = area * glm::dot(normal, y);
+    const double apart = std::sqrt(std::max(0.0, glm::dot(y, turned * y))) + shifted;
+    return 0.5 * (std::hypot(apart, across) - std::abs(across));
+  }
 };
 
 class FacePatches {

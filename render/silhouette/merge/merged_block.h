@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 
 #include "penumbra/mesh/triangle_mesh.h"
 #include "render/silhouette/edges/bounds_tree.h"
@@ -24,11 +25,17 @@ struct MergedEdge {
   VertexId from, to;
   /// The sides, as in FacePatches::Partition::side; `right` is kNoSide for a boundary.
   std::uint32_t left, right;
-  /// A receiver x sees the silhouette at p displaced by at most deviation · |x - p| · (how much x sees p
-  /// magnified); see merged_edges.h. Scene units.
+  /// How far it displaces silhouettes, over the distance of the receiver. It tells which level to try; nothing
+  /// relies on it. Scene units.
   float deviation = 0.0f;
   /// What the edge stands for is seen at most that far beside it; see MergedSides. Scene units.
   float margin = 0.0f;
+  /// How far what lies between its chain and it is from it at most (EdgeChain::stray). Scene units.
+  float stray = 0.0f;
+  /// What of that may be taken for the wrong side, over the distance of the receiver. Square scene units.
+  float swept = 0.0f;
+  /// What is added to that times the distance, at any distance. Cubic scene units.
+  float swept_at_any = 0.0f;
 };
 
 /// What the two sides of an edge stand for, in some frame.
@@ -62,14 +69,25 @@ struct MergedSides {
   Vec3 middle{0.0}, half{0.0};
 };
 
+/// What of an edge may be taken for the wrong side, in some frame (face_patches.h, caster_merger.h).
+struct MergedFaults {
+  /// Of a side, as FacePatch has it, divided by the number of edges of the patch.
+  struct Side {
+    double area = 0.0, shifted = 0.0;
+    glm::dmat3 turned{0.0};
+  };
+  Side left, right;
+  /// MergedEdge::swept, MergedEdge::swept_at_any and MergedEdge::stray.
+  double swept = 0.0, swept_at_any = 0.0, stray = 0.0;
+};
+
 /// Up to eight edges that lie close together, in some frame.
 struct MergedBlock {
   static constexpr std::size_t kEdges = BoundsTree::kFanOut;
   std::size_t count = 0;
   std::array<BandEdge, kEdges> edges;
   std::array<MergedSides, kEdges> sides;
-  /// The largest of the edges'. Scene units.
-  float deviation = 0.0f;
+  std::array<MergedFaults, kEdges> faults;
   /// Makes each edge's box.
   void make_boxes();
   /// The bounds of the edges and of all faces that they stand for. Requires boxes.

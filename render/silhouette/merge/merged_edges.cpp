@@ -6,6 +6,7 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <optional>
 #include <span>
 
@@ -51,19 +52,26 @@ struct PlacedEdge {
   MergedEdge edge;
 };
 
+/// In float, no less than it is.
+float rounded_up(double x) {
+  return static_cast<float>((1.0 + 0x1p-20) * x);
+}
+
 /// The edges of all casters, in an order in which neighbors lie close together.
 std::vector<MergedEdge> neighbors_together(const Scene& scene, const Mergers& mergers) {
   std::vector<PlacedEdge> placed;
   for (std::uint32_t object = 0; object < mergers.size(); ++object) {
     if (!mergers[object]) continue;
     const TriangleMesh& mesh = scene.objects[object].mesh;
-    for (const EdgeChain& c : mergers[object]->chains()) {
+    const CasterMerger& caster = *mergers[object];
+    for (const EdgeChain& c : caster.chains()) {
       const VertexId from{c.from}, to{c.to};
       const Vec3 middle = 0.5 * mesh.position(from) + 0.5 * mesh.position(to);
       placed.push_back(
           {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)},
-           {object, from, to, c.left, c.right, static_cast<float>(mergers[object]->deviation(c)),
-            static_cast<float>(1.0001 * mergers[object]->margin(c))}});
+           {object, from, to, c.left, c.right, rounded_up(caster.deviation(c)),
+            rounded_up(1.0001 * caster.margin(c)), rounded_up(c.stray), rounded_up(caster.swept(c)),
+            rounded_up(caster.swept_at_any(c))}});
     }
   }
   order_by_place(placed.data(), placed.data() + placed.size(), kLanes);
@@ -77,6 +85,8 @@ std::vector<MergedEdge> neighbors_together(const Scene& scene, const Mergers& me
 MergedLevel make_level(const Scene& scene, const Mergers& mergers, const RayUnits& units) {
   MergedLevel level;
   level.patches.resize(scene.objects.size());
+  for (const SceneObject& o : scene.objects)
+    level.faces.push_back(static_cast<std::uint32_t>(o.mesh.triangles().size()));
   for (std::uint32_t object = 0; object < mergers.size(); ++object) {
     if (mergers[object]) level.patches[object] = mergers[object]->patches();
   }
@@ -87,17 +97,34 @@ MergedLevel make_level(const Scene& scene, const Mergers& mergers, const RayUnit
     count += e.deviation > 0.0f ? 1.0 : 0.0;
   }
   level.deviation = sum / std::max(1.0, count);
+  std::vector<std::uint32_t> all(level.block_count());
+  std::iota(all.begin(), all.end(), 0u);
+  const MergedLevel::EdgeCounts counts = level.count_edges(all);
   std::vector<BlockBounds> bounds(level.block_count());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bounds.size(), kBlocksPerTask),
                     [&](const auto& range) {
                       for (std::size_t i = range.begin(); i < range.end(); ++i)
-                        bounds[i] = level.block(scene, i, units, 1.0).bounds();
+                        bounds[i] = level.block(scene, i, units, 1.0, counts).bounds();
                     });
   level.tree = BoundsTree(std::move(bounds), 1.0);
   return level;
 }
 
 }  // namespace
+
+MergedLevel::EdgeCounts MergedLevel::count_edges(std::span<const std::uint32_t> blocks) const {
+  EdgeCounts out(patches.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].resize(patches[i].size());
+  const auto count = [&](const MergedEdge& e, std::uint32_t side) {
+    if (side != MergedEdge::kNoSide && side >= faces[e.object]) ++out[e.object][side - faces[e.object]];
+  };
+  for (const std::uint32_t block : blocks) {
+    const std::size_t first = block * MergedBlock::kEdges;
+    for (std::size_t i = first; i < std::min(first + MergedBlock::kEdges, edges.size()); ++i)
+      count(edges[i], edges[i].left), count(edges[i], edges[i].right);
+  }
+  return out;
+}
 
 std::size_t MergedLevel::bytes() const {
   std::size_t sum = edges.size() * sizeof(MergedEdge) + tree.bytes();

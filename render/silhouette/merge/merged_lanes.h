@@ -16,17 +16,30 @@ inline float enlarged(double x, double grain) {
   return static_cast<float>((1.0 + 0x1p-20) * x + grain);
 }
 
-/// Margins and radii are rounded up; ends and centers are rounded.
+/// Margins and radii are rounded up, and so is what may be mistaken; ends, centers and normals are rounded.
 struct alignas(kFloatLanes * sizeof(float)) MergedLanes {
   /// Ends.
   std::array<Floats, 3> a, b;
   Floats margin;
   struct Side {
+    /// On the plane: of a patch its center.
     std::array<Floats, 3> center;
     /// Twice the radius, rounded up; less than 0 for a flat side.
     Floats reach;
+    /// Of the plane; 0 where there is no face.
+    std::array<Floats, 3> normal;
+    Floats tilt, spread;
+    /// MergedFaults::Side; `turned` by its rows above the diagonal, and the root of its trace.
+    Floats area, shifted, trace;
+    std::array<Floats, 6> turned;
   };
   Side left, right;
+  /// MergedFaults.
+  Floats swept, swept_at_any, stray;
+  /// MergedSides::middle and half.
+  std::array<Floats, 3> middle, half;
+  /// Nothing is mistaken.
+  bool is_exact;
 
   MergedLanes() = default;
   /// For coordinates up to `extent`. A lane without an edge is beside everything: tests dismiss it.

@@ -39,7 +39,7 @@ TEST(MergedEdgeTests, DismissOnlyWhatIsBesideTheDisk) {
     const std::uint32_t for_all = may_be_across(lanes, FloatShaft(shaft, extent));
     EXPECT_EQ(for_all >> block.count, 0u);
     for (const TileReceiver& r : receivers) {
-      const std::uint32_t for_one = may_be_across(lanes, FloatEye(r, extent));
+      const std::uint32_t for_one = may_be_across(lanes, FloatEye(r, {}, extent));
       for (std::size_t k = 0; k < block.count; ++k) {
         const bool is_dismissed = !((for_all & for_one) >> k & 1);
         (is_dismissed ? dismissed : kept) += 1;

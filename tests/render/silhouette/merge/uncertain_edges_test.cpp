@@ -37,7 +37,7 @@ TEST(UncertainEdges, CertificatesHoldToTheLast) {
       const auto is_certain = [&](const Vec3& world) {
         const TileReceiver r = receiver_at(world);
         for (std::size_t i = 0; i < band.edges.size(); ++i)
-          if (!is_certainly_no_silhouette(band, i, r, slack)) return false;
+          if (!is_certainly_no_silhouette(band, i, r, DiskSpot{}, slack)) return false;
         return true;
       };
       const Vec3 middle = scene.bounds().center();
