@@ -42,8 +42,12 @@ std::string count_line(std::size_t count, const char* what) {
   return line.append(std::to_string(count)).append(" ").append(what).append("\n");
 }
 
-std::string findings_of_build(const BuildReport& report) {
+std::string findings_of_build(const BuildReport& report, const PolygonReport& polygons) {
   std::string text =
+      count_line(polygons.divided, "polygons divided into triangles") +
+      count_line(polygons.concave, "of them not convex") +
+      count_line(polygons.crossing, "of them cross themselves, divided from their first corner") +
+      count_line(polygons.skipped, "polygons with fewer than three corners left out") +
       list_line(report.degenerate, "degenerate faces left out") +
       list_line(report.zero_area, "faces without area kept") +
       list_line(report.duplicates, "faces that repeat another kept") +
@@ -85,6 +89,12 @@ MeshFindings inspect(const TriangleMesh& mesh) {
   return findings;
 }
 
+MeshFindings inspect(const LoadedMesh& loaded) {
+  MeshFindings findings = inspect(loaded.mesh);
+  findings.polygons = loaded.polygons;
+  return findings;
+}
+
 std::string to_text(const MeshFindings& f) {
   std::string text = "faces         " + std::to_string(f.faces) + ", " + std::to_string(f.edges) +
                      " edges, " + std::to_string(f.vertices) + " vertices\n";
@@ -96,7 +106,7 @@ std::string to_text(const MeshFindings& f) {
                            : "bounds        " + point(f.bounds.low) + " to " + point(f.bounds.high) + "\n";
   text += "area          " + number(f.surface_area) + "\n";
   text += "volume        " + number(f.signed_volume) + (f.closed ? "\n" : " (closed components only)\n");
-  return text + findings_of_build(f.build);
+  return text + findings_of_build(f.build, f.polygons);
 }
 
 }  // namespace penumbra

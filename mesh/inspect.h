@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "penumbra/mesh/io/polygon_soup.h"
 #include "penumbra/mesh/triangle_mesh.h"
 
 namespace penumbra {
@@ -16,6 +17,8 @@ struct MeshFindings {
   std::size_t boundary_edges = 0, boundary_vertices = 0;
   /// What TriangleMesh::build did with the input.
   BuildReport build;
+  /// What triangulate did with the polygons of the file, where it is known.
+  PolygonReport polygons;
   /// Every component is closed, and there is at least one.
   bool closed = false;
   Bounds bounds;
@@ -27,6 +30,8 @@ struct MeshFindings {
 
 /// Cost O(V + E + F).
 MeshFindings inspect(const TriangleMesh& mesh);
+/// The same with the report on polygons.
+MeshFindings inspect(const LoadedMesh& loaded);
 
 /// Some lines for a person. Ends with a newline.
 std::string to_text(const MeshFindings& findings);

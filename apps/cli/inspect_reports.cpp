@@ -23,6 +23,13 @@ Json report_of(const BuildReport& report) {
           {"flipped_faces", report.flipped_faces}};
 }
 
+Json report_of(const PolygonReport& report) {
+  return {{"divided", report.divided},
+          {"concave", report.concave},
+          {"crossing", report.crossing},
+          {"skipped", report.skipped}};
+}
+
 Json report_of(const ComponentRepair& r) {
   return {{"verdict", name_of(r.verdict)},
           {"faces", r.faces.size()},
@@ -47,6 +54,7 @@ Json findings_report(const MeshFindings& f) {
           {"closed_components", f.closed_components},
           {"boundary_edges", f.boundary_edges},
           {"boundary_vertices", f.boundary_vertices},
+          {"polygons", report_of(f.polygons)},
           {"build", report_of(f.build)},
           {"closed", f.closed},
           {"bounds", {{"low", array_of(f.bounds.low)}, {"high", array_of(f.bounds.high)}}},

@@ -6,6 +6,7 @@
 
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"
+#include "mesh/polygons/polygon_triangles.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra {
@@ -79,27 +80,42 @@ PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::stri
 Triangulation triangulate(const PolygonSoup& soup) {
   Triangulation result;
   result.triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.polygon_count()));
+  std::vector<Vec3> corners;
   for (std::uint32_t f = 0; f < soup.polygon_count(); ++f) {
     const std::uint32_t* corner = soup.corners.data() + soup.first_corner[f];
     const std::uint32_t size = soup.first_corner[f + 1] - soup.first_corner[f];
-    result.fanned_polygons += size > 3;
-    result.skipped_polygons += size < 3;
-    for (std::uint32_t k = 2; k < size; ++k) {
-      result.triangles.push_back({corner[0], corner[k - 1], corner[k]});
+    result.report.skipped += size < 3;
+    result.report.divided += size > 3;
+    const auto add = [&](const IndexedTriangle& t) {
+      result.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
       result.source_polygon.push_back(f);
-    }
+    };
+    if (size == 3) add({0, 1, 2});
+    if (size <= 3) continue;
+    corners.clear();
+    for (std::uint32_t k = 0; k < size; ++k) corners.push_back(soup.positions[corner[k]]);
+    const detail::PolygonTriangles divided = detail::divide_polygon(corners);
+    result.report.concave += divided.is_concave;
+    result.report.crossing += divided.crosses_itself;
+    std::ranges::for_each(divided.triangles, add);
   }
   return result;
 }
 
-TriangleMesh read_mesh(const fs::path& path, const BuildOptions& options) {
+LoadedMesh load_mesh(const fs::path& path, const BuildOptions& options) {
   const PolygonSoup soup = read_polygon_soup(path);
-  TriangleMesh mesh = TriangleMesh::build(soup.positions, triangulate(soup).triangles, options);
-  if (mesh.empty()) {
+  const Triangulation triangulation = triangulate(soup);
+  LoadedMesh loaded{.mesh = TriangleMesh::build(soup.positions, triangulation.triangles, options),
+                    .polygons = triangulation.report};
+  if (loaded.mesh.empty()) {
     detail::fail_reading(path.string(), "", "every face in it has fewer than three distinct corners",
                          "export the mesh at another scale or precision");
   }
-  return mesh;
+  return loaded;
+}
+
+TriangleMesh read_mesh(const fs::path& path, const BuildOptions& options) {
+  return load_mesh(path, options).mesh;
 }
 
 }  // namespace penumbra

@@ -44,21 +44,40 @@ PolygonSoup read_polygon_soup(const std::filesystem::path& path);
 /// The same from memory. `name` stands in messages, and its extension counts as a file's does.
 PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name);
 
+/// What became of the polygons.
+struct PolygonReport {
+  /// Polygons with more than three corners.
+  std::size_t divided = 0;
+  /// Of these, those with a corner that turns away from the others.
+  std::size_t concave = 0;
+  /// Of these, those that cross themselves. What they enclose is not defined; they are divided from their first
+  /// corner.
+  std::size_t crossing = 0;
+  /// Polygons with fewer than three corners. They are left out.
+  std::size_t skipped = 0;
+};
+
 struct Triangulation {
   std::vector<IndexedTriangle> triangles;
   /// For each triangle the polygon that it came from.
   std::vector<std::uint32_t> source_polygon;
-  /// Polygons with more than three corners.
-  std::size_t fanned_polygons = 0;
-  /// Polygons with fewer than three corners. They are left out.
-  std::size_t skipped_polygons = 0;
+  PolygonReport report;
 };
-/// Divides each polygon into the triangles between its first corner and the sides that do not meet it. Cost
-/// O(corners).
+/// Divides each polygon into triangles over its corners. Convex polygons are divided from their first corner,
+/// concave ones so that the triangles cover their inside; a hole may be joined to the outline by a bridge. The
+/// rule for polygons that are not planar, have no area or cross themselves is in mesh/polygons/polygon_triangles.h.
+/// Cost O(corners) for convex polygons, expected O(n log n) for a concave one of n corners.
 Triangulation triangulate(const PolygonSoup& soup);
 
+/// A mesh and what was done to the polygons of its file.
+struct LoadedMesh {
+  TriangleMesh mesh;
+  PolygonReport polygons;
+};
 /// read_polygon_soup, triangulate and TriangleMesh::build in one. Throws MeshError as they do, and where no
 /// face is left.
+LoadedMesh load_mesh(const std::filesystem::path& path, const BuildOptions& options = {});
+/// The mesh of load_mesh alone.
 TriangleMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options = {});
 
 /// Writes a file whose format its extension names; PLY for the path "-", which is standard output. PLY is

@@ -45,8 +45,13 @@ TriangleMesh place_mesh(const MeshCache::Entry& entry, const Transform& transfor
 std::string summary_of(const Triangulation& triangulation, const BuildReport& report) {
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  const std::size_t left_out = report.degenerate.size() + triangulation.skipped_polygons;
+  const std::size_t left_out = report.degenerate.size() + triangulation.report.skipped;
   if (left_out) add("left out " + counted(left_out, "face", "faces") + " without three distinct corners");
+  if (triangulation.report.crossing)
+    add("divided " +
+        counted(triangulation.report.crossing, "polygon that crosses itself",
+                "polygons that cross themselves") +
+        " from the first corner");
   if (report.non_manifold_edges)
     add("split at " + counted(report.non_manifold_edges, "edge", "edges") + " with more than two faces");
   if (report.misoriented_edges)

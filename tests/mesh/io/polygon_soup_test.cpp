@@ -212,8 +212,8 @@ TEST(ReadPly, FacesMayComeFirstAndHaveAnySize) {
   EXPECT_EQ(triangulation.triangles.size(), 4u);
   EXPECT_EQ(triangulation.triangles[2], (IndexedTriangle{0, 3, 4}));
   EXPECT_EQ(triangulation.source_polygon, (std::vector<std::uint32_t>{0, 0, 0, 2}));
-  EXPECT_EQ(triangulation.fanned_polygons, 1u);
-  EXPECT_EQ(triangulation.skipped_polygons, 1u);
+  EXPECT_EQ(triangulation.report.divided, 1u);
+  EXPECT_EQ(triangulation.report.skipped, 1u);
 }
 
 TEST(ReadPly, Errors) {
