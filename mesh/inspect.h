@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "penumbra/mesh/io/polygon_soup.h"
 #include "penumbra/mesh/triangle_mesh.h"
@@ -19,6 +20,10 @@ struct MeshFindings {
   BuildReport build;
   /// What triangulate did with the polygons of the file, where it is known.
   PolygonReport polygons;
+  /// Materials that the file names, and how many have a color.
+  std::size_t materials = 0, colored_materials = 0;
+  /// What the file has and is not used.
+  std::vector<std::string> ignored;
   /// Every component is closed, and there is at least one.
   bool closed = false;
   Bounds bounds;
@@ -30,7 +35,7 @@ struct MeshFindings {
 
 /// Cost O(V + E + F).
 MeshFindings inspect(const TriangleMesh& mesh);
-/// The same with the report on polygons.
+/// The same with what became of the file.
 MeshFindings inspect(const LoadedMesh& loaded);
 
 /// Some lines for a person. Ends with a newline.

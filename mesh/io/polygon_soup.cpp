@@ -1,11 +1,12 @@
 #include "penumbra/mesh/io/polygon_soup.h"
 
 #include <algorithm>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"
+#include "mesh/io/material_colors.h"
+#include "mesh/io/read_file.h"
 #include "mesh/polygons/polygon_triangles.h"
 #include "penumbra/mesh/error.h"
 
@@ -32,46 +33,41 @@ void check_soup(const PolygonSoup& soup, const std::string& name) {
   }
 }
 
-std::vector<std::byte> read_bytes(const fs::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) {
-    detail::fail_reading(name, "", "no such file", "check the path");
-  }
-  if (status.type() == fs::file_type::none) {
-    detail::fail_reading(name, "", "cannot be opened: " + error.message(), "check the path and permissions");
-  }
-  if (status.type() != fs::file_type::regular) {
-    const bool folder = status.type() == fs::file_type::directory;
-    detail::fail_reading(name, "", folder ? "is a folder" : "is not a regular file", "name a mesh file");
-  }
-  std::ifstream in(path, std::ios::binary);
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (!in || error) {
-    detail::fail_reading(name, "", "cannot be opened", "check its permissions");
-  }
-  if (size == 0) {
-    detail::fail_reading(name, "", "the file is empty", "export it again");
-  }
-  std::vector<std::byte> bytes(size);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(in.gcount()) != size) {
-    detail::fail_reading(name, "byte " + std::to_string(in.gcount()), "reading stopped", "check the disk");
-  }
-  return bytes;
+/// Fails for what is a mesh file only after it was unpacked or converted.
+void refuse_wrapped(std::span<const std::byte> bytes, const std::string& name) {
+  using namespace std::string_view_literals;
+  static constexpr std::pair<std::string_view, const char*> kPacked[] = {{"\x1F\x8B"sv, "gzip"},
+                                                                         {"PK\3\4"sv, "zip"},
+                                                                         {"BZh"sv, "bzip2"},
+                                                                         {"\xFD"
+                                                                          "7zXZ\0"sv,
+                                                                          "xz"},
+                                                                         {"\x28\xB5\x2F\xFD"sv, "zstd"},
+                                                                         {"7z\xBC\xAF\x27\x1C"sv, "7z"}};
+  const std::string_view text = detail::as_text(bytes);
+  for (const auto& [begin, format] : kPacked)
+    if (text.starts_with(begin))
+      detail::fail_reading(name, "", std::string("is compressed (") + format + ")", "unpack it first");
+  const bool every_other_is_0 =
+      text.size() >= 4 && text[0] != 0 && text[1] == 0 && text[2] != 0 && text[3] == 0;
+  const bool is_wide = text.starts_with("\xFF\xFE"sv) || text.starts_with("\xFE\xFF"sv) ||
+                       (every_other_is_0 && !detail::has_binary_stl_size(bytes));
+  if (is_wide) detail::fail_reading(name, "", "is text in UTF-16", "save it as UTF-8");
 }
 
 }  // namespace
 
 PolygonSoup read_polygon_soup(const fs::path& path) {
-  return parse_polygon_soup(read_bytes(path), path.string());
+  PolygonSoup soup = parse_polygon_soup(detail::read_bytes(path), path.string());
+  for (const std::string& file : soup.material_files) detail::add_colors(soup, path.parent_path(), file);
+  return soup;
 }
 
 PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.empty()) {
     detail::fail_reading(name, "", "the file is empty", "export it again");
   }
+  refuse_wrapped(bytes, name);
   PolygonSoup soup = detail::recognize_format(bytes, name).read(bytes, name);
   check_soup(soup, name);
   return soup;
@@ -106,7 +102,9 @@ LoadedMesh load_mesh(const fs::path& path, const BuildOptions& options) {
   const PolygonSoup soup = read_polygon_soup(path);
   const Triangulation triangulation = triangulate(soup);
   LoadedMesh loaded{.mesh = TriangleMesh::build(soup.positions, triangulation.triangles, options),
-                    .polygons = triangulation.report};
+                    .polygons = triangulation.report,
+                    .materials = soup.materials,
+                    .ignored = soup.ignored};
   if (loaded.mesh.empty()) {
     detail::fail_reading(path.string(), "", "every face in it has fewer than three distinct corners",
                          "export the mesh at another scale or precision");

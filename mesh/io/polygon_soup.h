@@ -3,14 +3,16 @@
 //
 // In: a path or bytes. Out: positions in double and polygons as lists of indices, exactly as the file has
 // them; `triangulate` makes triangles of them. Nothing in a file is trusted: counts are checked against its
-// size before memory is reserved, every index is checked, every coordinate must be finite. Normals, colors,
-// texture coordinates and all that is not vertices and faces are skipped.
+// size before memory is reserved, every index is checked, every coordinate that a face uses must be finite; other
+// vertices that are not are put at 0. Normals, colors, texture coordinates and all that is not vertices and faces
+// are skipped, and named in `ignored`.
 //
 // The readers are our own: OpenMesh's read single precision only and trust the counts that they find, and a
 // bad file must give a clear message.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +23,12 @@
 
 namespace penumbra {
 
+struct Material {
+  std::string name;
+  /// Diffuse reflectance, linear, 0 to 1 each.
+  std::optional<Vec3> color{};
+};
+
 /// Polygons over shared vertices. Nothing is said of how they are connected.
 struct PolygonSoup {
   std::vector<Vec3> positions;
@@ -28,6 +36,14 @@ struct PolygonSoup {
   std::vector<std::uint32_t> corners;
   /// Polygon i has the corners first_corner[i] up to, but not including, first_corner[i + 1].
   std::vector<std::uint32_t> first_corner;
+  /// Materials that polygons name, and for each polygon its material; both empty where the file names none.
+  std::vector<Material> materials;
+  std::vector<std::uint32_t> polygon_material;
+  static constexpr std::uint32_t kNoMaterial = 0xFFFFFFFFu;
+  /// Files of materials, as the file names them. read_polygon_soup reads them.
+  std::vector<std::string> material_files;
+  /// What the file has and is not used, for people: "normals", "vertex colors".
+  std::vector<std::string> ignored;
 
   std::size_t polygon_count() const { return first_corner.empty() ? 0 : first_corner.size() - 1; }
 };
@@ -39,7 +55,8 @@ std::string mesh_format_names();
 
 /// Reads a file. A file that begins as PLY does is PLY; otherwise its extension names the format; otherwise
 /// its content does. Throws MeshError, with line or byte, where the file is missing, no regular file, empty,
-/// truncated, malformed, in no known format, or without faces. Cost O(bytes).
+/// truncated, malformed, in no known format, or without faces. Materials of OBJ get their colors from the files that
+/// it names (MTL, `Kd`), beside it; a file that is missing is no error, but stands in `ignored`. Cost O(bytes).
 PolygonSoup read_polygon_soup(const std::filesystem::path& path);
 /// The same from memory. `name` stands in messages, and its extension counts as a file's does.
 PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name);
@@ -69,10 +86,13 @@ struct Triangulation {
 /// Cost O(corners) for convex polygons, expected O(n log n) for a concave one of n corners.
 Triangulation triangulate(const PolygonSoup& soup);
 
-/// A mesh and what was done to the polygons of its file.
+/// A mesh and what became of its file.
 struct LoadedMesh {
   TriangleMesh mesh;
   PolygonReport polygons;
+  /// As in PolygonSoup.
+  std::vector<Material> materials;
+  std::vector<std::string> ignored;
 };
 /// read_polygon_soup, triangulate and TriangleMesh::build in one. Throws MeshError as they do, and where no
 /// face is left.

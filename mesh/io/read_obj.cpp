@@ -1,5 +1,7 @@
-// Wavefront OBJ: v and f (v, v/vt, v//vn, v/vt/vn, negative indices count back from the last vertex so far);
-// everything else is skipped. A backslash at the end of a line continues it.
+// Wavefront OBJ: v and f (v, v/vt, v//vn, v/vt/vn, negative indices count back from the last vertex so far), usemtl and
+// mtllib; everything else is skipped. A backslash at the end of a line continues it.
+#include <utility>
+
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"
 
@@ -17,6 +19,19 @@ void read_vertex(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
     }
   }
   soup.add_vertex(p);  // w and colors may follow
+}
+
+/// What people may miss of what is skipped.
+void name_ignored(std::string_view keyword, SoupBuilder<TextCursor>& soup) {
+  static constexpr std::pair<std::string_view, const char*> kKnown[] = {{"vn", "normals"},
+                                                                        {"vt", "texture coordinates"},
+                                                                        {"l", "lines"},
+                                                                        {"p", "points"},
+                                                                        {"curv", "free-form curves"},
+                                                                        {"curv2", "free-form curves"},
+                                                                        {"surf", "free-form surfaces"}};
+  for (const auto& [name, what] : kKnown)
+    if (keyword == name) soup.ignore(what);
 }
 
 void read_face(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
@@ -43,9 +58,14 @@ PolygonSoup read_obj(std::span<const std::byte> bytes, const std::string& name) 
       read_vertex(cursor, soup);
     } else if (keyword == "f") {
       read_face(cursor, soup);
+    } else if (keyword == "usemtl") {
+      soup.use_material(cursor.rest_of_line());
+    } else if (keyword == "mtllib") {
+      soup.name_material_file(cursor.rest_of_line());
+    } else {
+      name_ignored(keyword, soup);
     }
-    while (!cursor.token_of_line().empty()) {  // not skip_line: what is skipped may be continued
-    }
+    cursor.rest_of_line();  // not skip_line: what is skipped may be continued
     cursor.skip_line();
   }
   return std::move(soup).take();

@@ -2,6 +2,7 @@
 // what was not understood.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -13,6 +14,13 @@
 
 namespace penumbra {
 
+/// Colors of single faces.
+struct FaceColors {
+  std::vector<Vec3> colors{};
+  /// For each face of the mesh a number in `colors`.
+  std::vector<std::uint32_t> of_face{};
+};
+
 struct SceneObject {
   /// The mesh's path as the scene file has it.
   std::string name{};
@@ -20,8 +28,14 @@ struct SceneObject {
   TriangleMesh mesh{};
   /// Linear RGB.
   Vec3 albedo{0.8};
+  /// Where its faces have several: empty, or one for each face, which then counts instead.
+  FaceColors face_albedo{};
   /// Whether it hides lights from what lies behind it.
   bool casts = true;
+
+  const Vec3& albedo_of(std::uint32_t face) const {
+    return face < face_albedo.of_face.size() ? face_albedo.colors[face_albedo.of_face[face]] : albedo;
+  }
 };
 
 struct Scene {

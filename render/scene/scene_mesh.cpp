@@ -1,5 +1,6 @@
 #include "render/scene/scene_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -20,7 +21,11 @@ const MeshCache::Entry& MeshCache::get(const std::filesystem::path& path) {
   if (error) key = path;
   if (const auto it = entries_.find(key); it != entries_.end()) return it->second;
   PolygonSoup soup = read_polygon_soup(path);
-  Entry entry{.positions = {}, .triangulation = triangulate(soup)};
+  Entry entry{.positions = {},
+              .triangulation = triangulate(soup),
+              .materials = std::move(soup.materials),
+              .polygon_material = std::move(soup.polygon_material),
+              .ignored = std::move(soup.ignored)};
   entry.positions = std::move(soup.positions);
   return entries_.emplace(key, std::move(entry)).first->second;
 }
@@ -42,18 +47,39 @@ TriangleMesh place_mesh(const MeshCache::Entry& entry, const Transform& transfor
   return mesh;
 }
 
-std::string summary_of(const Triangulation& triangulation, const BuildReport& report) {
+void take_material_colors(const MeshCache::Entry& entry, SceneObject& object) {
+  if (std::ranges::none_of(entry.materials, [](const Material& m) { return m.color.has_value(); })) return;
+  FaceColors faces;
+  for (const Material& material : entry.materials)
+    faces.colors.push_back(material.color.value_or(object.albedo));
+  faces.colors.push_back(object.albedo);
+  const auto none = static_cast<std::uint32_t>(entry.materials.size());
+  for (const std::uint32_t source : object.mesh.source_triangles()) {
+    const std::uint32_t material = entry.polygon_material[entry.triangulation.source_polygon[source]];
+    faces.of_face.push_back(std::min(material, none));
+  }
+  const Vec3 first = faces.colors[faces.of_face[0]];
+  if (std::ranges::all_of(faces.of_face, [&](std::uint32_t i) { return faces.colors[i] == first; })) {
+    object.albedo = first;
+  } else {
+    object.face_albedo = std::move(faces);
+  }
+}
+
+std::string summary_of(const MeshCache::Entry& entry, const BuildReport& report) {
+  const PolygonReport& polygons = entry.triangulation.report;
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  const std::size_t left_out = report.degenerate.size() + triangulation.report.skipped;
+  const std::size_t left_out = report.degenerate.size() + polygons.skipped;
   if (left_out) add("left out " + counted(left_out, "face", "faces") + " without three distinct corners");
-  if (triangulation.report.crossing)
+  if (polygons.crossing)
     add("divided " +
-        counted(triangulation.report.crossing, "polygon that crosses itself",
-                "polygons that cross themselves") +
+        counted(polygons.crossing, "polygon that crosses itself", "polygons that cross themselves") +
         " from the first corner");
-  if (report.non_manifold_edges)
-    add("split at " + counted(report.non_manifold_edges, "edge", "edges") + " with more than two faces");
+  if (report.joined_edges)
+    add("joined faces in pairs at " + counted(report.joined_edges, "edge", "edges") + " with more than two");
+  if (const std::size_t cut = report.non_manifold_edges - report.joined_edges)
+    add("split at " + counted(cut, "edge", "edges") + " with more than two faces");
   if (report.misoriented_edges)
     add("split at " + counted(report.misoriented_edges, "edge", "edges") +
         " whose two faces disagree about the outside");
@@ -62,6 +88,9 @@ std::string summary_of(const Triangulation& triangulation, const BuildReport& re
         " where surfaces only touch");
   if (report.flipped_components)
     add("turned " + counted(report.flipped_components, "closed part", "closed parts") + " outward");
+  std::string ignored;
+  for (const std::string& what : entry.ignored) ignored += (ignored.empty() ? "" : ", ") + what;
+  if (!ignored.empty()) add("ignored its " + ignored);
   return text;
 }
 

@@ -56,7 +56,8 @@ Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const Li
                           image);
   const auto shade_pixel = [&](std::size_t i) {
     if (!surface.hit(i)) return;
-    const Vec3 albedo = scene.objects[static_cast<std::size_t>(surface.object[i])].albedo;
+    const Vec3& albedo =
+        scene.objects[static_cast<std::size_t>(surface.object[i])].albedo_of(surface.face[i]);
     Vec3 color(0.0);
     for (const LitChannels& light : channels)
       color += albedo / kPi * light.write(i, surface.position[i], surface.normal[i]);
