@@ -28,10 +28,10 @@ struct SceneObject {
   TriangleMesh mesh{};
   /// Linear RGB.
   Vec3 albedo{0.8};
-  /// Where its faces have several: empty, or one for each face, which then counts instead.
-  FaceColors face_albedo{};
   /// Whether it hides lights from what lies behind it.
   bool casts = true;
+  /// Albedos where its faces have several: empty, or one for each face, which then counts instead.
+  FaceColors face_albedo{};
 
   const Vec3& albedo_of(std::uint32_t face) const {
     return face < face_albedo.of_face.size() ? face_albedo.colors[face_albedo.of_face[face]] : albedo;

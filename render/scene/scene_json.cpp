@@ -4,6 +4,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/scene/default_scene.h"
 #include "render/scene/scene_lights.h"
+#include "render/scene/scene_limits.h"
 #include "render/scene/scene_mesh.h"
 #include "render/scene/scene_node.h"
 #include "render/scene/transform.h"
@@ -88,6 +89,9 @@ LoadedScene read_scene(const nlohmann::json& document, const std::filesystem::pa
   for (const SceneNode& node : objects.elements()) scene.objects.push_back(read_object(node, folder, meshes));
   if (scene.objects.empty()) objects.fail("is empty; add an object");
   if (!camera) scene.camera = camera_for(scene.bounds());
+
+  if (const std::string complaint = out_of_range(scene); !complaint.empty())
+    throw SceneError(name + ": " + complaint);
 
   scene.document = document.dump();
   loaded.warnings = std::move(notes.warnings);

@@ -1,10 +1,11 @@
 #include "render/scene/scene_mesh.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "mesh/vectors.h"
 #include "penumbra/mesh/error.h"
+#include "render/scene/scene_limits.h"
 
 namespace penumbra::detail {
 namespace {
@@ -35,8 +36,8 @@ TriangleMesh place_mesh(const MeshCache::Entry& entry, const Transform& transfor
   positions.reserve(entry.positions.size());
   for (const Vec3& p : entry.positions) {
     const Vec3 world = transform.apply(p);
-    if (!std::isfinite(world.x + world.y + world.z))
-      throw MeshError("the transform moves a vertex beyond the range of numbers; use a smaller one");
+    if (!(largest_component(world) <= kMostNumber))
+      throw MeshError("a vertex lies beyond " + to_text(kMostNumber) + "; use another unit of length");
     positions.push_back(world);
   }
   std::vector<IndexedTriangle> triangles = entry.triangulation.triangles;
