@@ -123,6 +123,7 @@ MeshFindings inspect(const TriangleMesh& mesh) {
 MeshFindings inspect(const LoadedMesh& loaded) {
   MeshFindings findings = inspect(loaded.mesh);
   findings.polygons = loaded.polygons;
+  findings.has_normals = loaded.has_normals;
   findings.materials = loaded.materials.size();
   findings.colored_materials = static_cast<std::size_t>(
       std::ranges::count_if(loaded.materials, [](const Material& m) { return m.color.has_value(); }));
@@ -140,6 +141,7 @@ std::string to_text(const MeshFindings& f) {
   text += f.bounds.empty() ? "bounds        empty\n" : "bounds        " + box(f.bounds) + "\n";
   text += "area          " + number(f.surface_area) + "\n";
   text += "volume        " + number(f.signed_volume) + (f.closed ? "\n" : " (closed components only)\n");
+  if (f.has_normals) text += "normals       of corners, for smooth shading\n";
   return text + material_line(f) + ignored_line(f.ignored) + findings_of_build(f.build, f.polygons);
 }
 

@@ -20,6 +20,8 @@ struct MeshFindings {
   BuildReport build;
   /// What triangulate did with the polygons of the file, where it is known.
   PolygonReport polygons;
+  /// Some corners have normals.
+  bool has_normals = false;
   /// Materials that the file names, and how many have a color.
   std::size_t materials = 0, colored_materials = 0;
   /// What the file has and is not used.

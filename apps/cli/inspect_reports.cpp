@@ -56,6 +56,7 @@ Json findings_report(const MeshFindings& f) {
           {"boundary_edges", f.boundary_edges},
           {"boundary_vertices", f.boundary_vertices},
           {"polygons", report_of(f.polygons)},
+          {"has_normals", f.has_normals},
           {"materials", f.materials},
           {"colored_materials", f.colored_materials},
           {"ignored", f.ignored},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -122,6 +123,18 @@ class SoupBuilder {
   /// `vertex` counts from 0. Whether there is such a vertex is checked at the end, since faces may come
   /// first.
   void add_corner(std::int64_t vertex);
+  /// A normal that is not finite, or zero, counts as none.
+  void add_normal(const Vec3& n) { soup_.normals.push_back(n); }
+  std::size_t normal_count() const { return soup_.normals.size(); }
+  /// Of the corner that was added last; from 0, in any range.
+  void give_corner_normal(std::int64_t normal) {
+    soup_.corner_normals.resize(soup_.corners.size() - 1, PolygonSoup::kNoNormal);
+    soup_.corner_normals.push_back(normal >= 0 && normal < std::int64_t{PolygonSoup::kNoNormal}
+                                       ? static_cast<std::uint32_t>(normal)
+                                       : PolygonSoup::kNoNormal);
+  }
+  /// The normals are those of vertices, in their order.
+  void give_vertices_normals() { vertices_have_normals_ = true; }
   void end_polygon() {
     soup_.first_corner.push_back(static_cast<std::uint32_t>(soup_.corners.size()));
     if (!soup_.materials.empty()) soup_.polygon_material.push_back(material_);
@@ -141,8 +154,10 @@ class SoupBuilder {
     std::size_t vertex, place;
   };
   static constexpr std::size_t kMost = 0xFFFFFFFEu;
+  void settle_normals();
   const Cursor& cursor_;
   PolygonSoup soup_;
+  bool vertices_have_normals_ = false;
   std::vector<Place> not_finite_;
   std::map<std::string, std::uint32_t> material_numbers_;
   std::uint32_t material_ = PolygonSoup::kNoMaterial;
@@ -188,7 +203,27 @@ PolygonSoup SoupBuilder<Cursor>::take() && {
       fail_reading(cursor_.name(), Cursor::kPlace + std::to_string(place),
                    "vertex " + std::to_string(vertex) + " has a coordinate that is not finite",
                    "export the mesh without NaN, infinity or overflow");
+  settle_normals();
   return std::move(soup_);
+}
+
+template <class Cursor>
+void SoupBuilder<Cursor>::settle_normals() {
+  std::vector<std::uint32_t>& of_corners = soup_.corner_normals;
+  if (vertices_have_normals_) of_corners = soup_.corners;
+  if (!of_corners.empty()) of_corners.resize(soup_.corners.size(), PolygonSoup::kNoNormal);
+  const auto is_normal = [&](std::uint32_t i) {
+    if (i >= soup_.normals.size()) return false;
+    const double sum =
+        std::abs(soup_.normals[i].x) + std::abs(soup_.normals[i].y) + std::abs(soup_.normals[i].z);
+    return sum > 0.0 && sum - sum == 0.0;
+  };
+  for (std::uint32_t& i : of_corners)
+    if (!is_normal(i)) i = PolygonSoup::kNoNormal;
+  if (std::ranges::all_of(of_corners, [](std::uint32_t i) { return i == PolygonSoup::kNoNormal; })) {
+    of_corners.clear();
+    soup_.normals.clear();
+  }
 }
 
 }  // namespace penumbra::detail

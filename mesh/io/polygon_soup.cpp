@@ -85,6 +85,8 @@ Triangulation triangulate(const PolygonSoup& soup) {
     const auto add = [&](const IndexedTriangle& t) {
       result.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
       result.source_polygon.push_back(f);
+      const std::uint32_t first = soup.first_corner[f];
+      if (!soup.corner_normals.empty()) result.corners.push_back({first + t[0], first + t[1], first + t[2]});
     };
     if (size == 3) add({0, 1, 2});
     if (size <= 3) continue;
@@ -103,6 +105,7 @@ LoadedMesh load_mesh(const fs::path& path, const BuildOptions& options) {
   const Triangulation triangulation = triangulate(soup);
   LoadedMesh loaded{.mesh = TriangleMesh::build(soup.positions, triangulation.triangles, options),
                     .polygons = triangulation.report,
+                    .has_normals = !soup.corner_normals.empty(),
                     .materials = soup.materials,
                     .ignored = soup.ignored};
   if (loaded.mesh.empty()) {

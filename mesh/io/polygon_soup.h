@@ -4,8 +4,8 @@
 // In: a path or bytes. Out: positions in double and polygons as lists of indices, exactly as the file has
 // them; `triangulate` makes triangles of them. Nothing in a file is trusted: counts are checked against its
 // size before memory is reserved, every index is checked, every coordinate that a face uses must be finite; other
-// vertices that are not are put at 0. Normals, colors, texture coordinates and all that is not vertices and faces
-// are skipped, and named in `ignored`.
+// vertices that are not are put at 0. Colors of vertices and faces, texture coordinates and all that is not
+// vertices, faces, normals and materials are skipped, and named in `ignored`.
 //
 // The readers are our own: OpenMesh's read single precision only and trust the counts that they find, and a
 // bad file must give a clear message.
@@ -36,6 +36,11 @@ struct PolygonSoup {
   std::vector<std::uint32_t> corners;
   /// Polygon i has the corners first_corner[i] up to, but not including, first_corner[i + 1].
   std::vector<std::uint32_t> first_corner;
+  /// Normals, of any length, and for each corner a number among them or kNoNormal. For shading: what is in front and
+  /// behind is told by the order of corners. Both empty where no corner has one.
+  std::vector<Vec3> normals;
+  std::vector<std::uint32_t> corner_normals;
+  static constexpr std::uint32_t kNoNormal = 0xFFFFFFFFu;
   /// Materials that polygons name, and for each polygon its material; both empty where the file names none.
   std::vector<Material> materials;
   std::vector<std::uint32_t> polygon_material;
@@ -78,6 +83,8 @@ struct Triangulation {
   std::vector<IndexedTriangle> triangles;
   /// For each triangle the polygon that it came from.
   std::vector<std::uint32_t> source_polygon;
+  /// For each triangle the numbers of its corners in PolygonSoup::corners; only where the soup has normals.
+  std::vector<IndexedTriangle> corners;
   PolygonReport report;
 };
 /// Divides each polygon into triangles over its corners. Convex polygons are divided from their first corner,
@@ -90,6 +97,7 @@ Triangulation triangulate(const PolygonSoup& soup);
 struct LoadedMesh {
   TriangleMesh mesh;
   PolygonReport polygons;
+  bool has_normals = false;
   /// As in PolygonSoup.
   std::vector<Material> materials;
   std::vector<std::string> ignored;

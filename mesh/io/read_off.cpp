@@ -1,6 +1,6 @@
 // Object File Format (Geomview): OFF, COFF, NOFF, STOFF and combinations, or no header word at all in a file
-// named .off. The first count may be glued to the header word. Each vertex and each face ends its line: normals, colors and texture coordinates after them
-// are skipped.
+// named .off. The first count may be glued to the header word. Each vertex and each face ends its line: normals are
+// read, colors and texture coordinates behind them are skipped.
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"
 
@@ -27,8 +27,13 @@ Keyword split_keyword(std::string_view token) {
   return {token.substr(0, token.size() - rest.size()), rest};
 }
 
-/// Returns the number of vertices.
-std::size_t read_header(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
+struct Counts {
+  std::size_t vertices = 0;
+  bool has_normals = false;
+};
+
+Counts read_header(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
+  Counts counts;
   std::string_view token = cursor.token();
   const Keyword keyword = split_keyword(token);
   if (!keyword.word.empty()) {
@@ -38,7 +43,7 @@ std::size_t read_header(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
     }
     if (keyword.word.starts_with("ST")) soup.ignore("texture coordinates");
     if (keyword.word.find('C') != std::string_view::npos) soup.ignore("colors");
-    if (keyword.word.find('N') != std::string_view::npos) soup.ignore("normals");
+    if (keyword.word.find('N') != std::string_view::npos) counts.has_normals = true;
     token = keyword.glued.empty() ? cursor.token() : keyword.glued;
   }
   if (token == "BINARY") {
@@ -51,7 +56,16 @@ std::size_t read_header(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
   if (!parse_number(token, count) || count < 0) {
     cursor.fail("the number of vertices is " + quote(token), "an OFF file begins with OFF and three counts");
   }
-  return static_cast<std::size_t>(count);
+  counts.vertices = static_cast<std::size_t>(count);
+  return counts;
+}
+
+/// The numbers behind a vertex, on its line.
+void read_normal(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
+  Vec3 n(0.0);
+  for (int k = 0; k < 3; ++k)
+    if (!parse_number(cursor.token_of_line(), n[k])) n = Vec3(0.0);
+  soup.add_normal(n);
 }
 
 void check_count(const TextCursor& cursor, std::size_t count, std::size_t bytes_each, const char* what) {
@@ -70,7 +84,8 @@ bool begins_like_off(std::span<const std::byte> bytes) {
 PolygonSoup read_off(std::span<const std::byte> bytes, const std::string& name) {
   TextCursor cursor(as_text(bytes), name, '#');
   SoupBuilder<TextCursor> soup(cursor);
-  const std::size_t vertices = read_header(cursor, soup);
+  const auto [vertices, has_normals] = read_header(cursor, soup);
+  if (has_normals) soup.give_vertices_normals();
   const std::int64_t face_count = cursor.integer("the number of faces");
   if (face_count < 0) {
     cursor.fail("the number of faces is negative", "correct the header");
@@ -84,6 +99,7 @@ PolygonSoup read_off(std::span<const std::byte> bytes, const std::string& name) 
     const std::string what = "a coordinate of vertex " + std::to_string(soup.vertex_count());
     const double x = cursor.number(what), y = cursor.number(what), z = cursor.number(what);
     soup.add_vertex({x, y, z});
+    if (has_normals) read_normal(cursor, soup);
     cursor.skip_line();
   }
   while (soup.polygon_count() < faces) {

@@ -1,5 +1,5 @@
 // Polygon File Format (Turk, "The PLY Polygon File Format", 1994): ASCII and binary of either byte order.
-// Wanted are x, y and z of element `vertex` and the list `vertex_indices` (or `vertex_index`) of elements `face` and
+// Wanted are x, y, z and nx, ny, nz of element `vertex` and the list `vertex_indices` (or `vertex_index`) of elements `face` and
 // `tristrips`; all else is skipped.
 #include <algorithm>
 #include <array>
@@ -137,7 +137,6 @@ class ElementReader {
   /// What people may miss of what is skipped.
   void name_ignored(const PlyElement& element) {
     static constexpr std::pair<std::string_view, const char*> kKnown[] = {
-        {"nx", "normals"},
         {"red", "colors"},
         {"diffuse_red", "colors"},
         {"r", "colors"},
@@ -150,33 +149,39 @@ class ElementReader {
         if (property.name == name) soup_.ignore(what);
   }
 
-  void read_vertices(const PlyElement& element) {
-    std::array<bool, 3> found = {};
+  /// For each property which of x, y, z, nx, ny and nz it is; -1 for others.
+  static std::vector<int> slots_of(const PlyElement& element) {
+    static constexpr std::array<std::string_view, 6> kNames = {"x", "y", "z", "nx", "ny", "nz"};
+    std::vector<int> slots;
     for (const PlyProperty& property : element.properties) {
-      if (const int axis = axis_of(property); axis >= 0) {
-        found[static_cast<std::size_t>(axis)] = true;
-      }
+      const auto* named = std::ranges::find(kNames, property.name);
+      const bool known = named != kNames.end() && !property.count_type;
+      slots.push_back(known ? static_cast<int>(named - kNames.begin()) : -1);
     }
-    if (!(found[0] && found[1] && found[2])) {
-      source_.fail("element 'vertex' lacks the property x, y or z", "export it with vertex positions");
-    }
-    soup_.reserve(element.count, 0);
-    for (std::size_t i = 0; i < element.count; ++i) {
-      Vec3 p(0.0);
-      for (const PlyProperty& property : element.properties) {
-        if (const int axis = axis_of(property); axis >= 0) {
-          p[axis] = source_.value(property.type);
-        } else {
-          skip(property);
-        }
-      }
-      soup_.add_vertex(p);
-    }
+    return slots;
   }
 
-  static int axis_of(const PlyProperty& property) {
-    const bool named = property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z';
-    return named && !property.count_type ? property.name[0] - 'x' : -1;
+  void read_vertices(const PlyElement& element) {
+    const std::vector<int> slots = slots_of(element);
+    const auto has = [&](int slot) { return std::ranges::find(slots, slot) != slots.end(); };
+    if (!(has(0) && has(1) && has(2))) {
+      source_.fail("element 'vertex' lacks the property x, y or z", "export it with vertex positions");
+    }
+    const bool has_normals = has(3) && has(4) && has(5);
+    if (has_normals) soup_.give_vertices_normals();
+    soup_.reserve(element.count, 0);
+    for (std::size_t i = 0; i < element.count; ++i) {
+      std::array<double, 6> values{};
+      for (std::size_t k = 0; k < slots.size(); ++k) {
+        if (const int slot = slots[k]; slot >= 0) {
+          values[static_cast<std::size_t>(slot)] = source_.value(element.properties[k].type);
+        } else {
+          skip(element.properties[k]);
+        }
+      }
+      soup_.add_vertex({values[0], values[1], values[2]});
+      if (has_normals) soup_.add_normal({values[3], values[4], values[5]});
+    }
   }
 
   /// The list of vertices of a face or a strip.

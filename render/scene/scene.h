@@ -2,8 +2,10 @@
 // what was not understood.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +34,8 @@ struct SceneObject {
   bool casts = true;
   /// Albedos where its faces have several: empty, or one for each face, which then counts instead.
   FaceColors face_albedo{};
+  /// Unit normals at the corners of each face, for smooth shading: only RGB depends on them. Empty: faces are flat.
+  std::vector<std::array<glm::vec3, 3>> corner_normals{};
 
   const Vec3& albedo_of(std::uint32_t face) const {
     return face < face_albedo.of_face.size() ? face_albedo.colors[face_albedo.of_face[face]] : albedo;

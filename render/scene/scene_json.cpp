@@ -37,7 +37,7 @@ Camera read_camera(const SceneNode& node) {
   return camera;
 }
 
-/// Fills the object's mesh and the colors of its materials.
+/// Fills the object's mesh, the colors of its materials and its normals.
 void read_object_mesh(const SceneNode& node, const SceneNode& mesh_node, const std::filesystem::path& folder,
                       MeshCache& meshes, SceneObject& object) {
   const std::string name = mesh_node.text();
@@ -47,6 +47,8 @@ void read_object_mesh(const SceneNode& node, const SceneNode& mesh_node, const s
     const MeshCache::Entry& entry = meshes.get(folder / name);
     object.mesh = place_mesh(entry, transform);
     take_material_colors(entry, object);
+    const auto smooth = node.find("smooth");
+    if (!smooth || smooth->boolean()) take_normals(entry, transform, object);
     const std::string summary = summary_of(entry, object.mesh.report());
     if (!summary.empty()) mesh_node.warn(name + ": " + summary);
   } catch (const MeshError& e) {
@@ -55,7 +57,7 @@ void read_object_mesh(const SceneNode& node, const SceneNode& mesh_node, const s
 }
 
 SceneObject read_object(const SceneNode& node, const std::filesystem::path& folder, MeshCache& meshes) {
-  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "casts"});
+  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "smooth", "casts"});
   const SceneNode mesh = node.required("mesh");
   SceneObject object{.name = mesh.text()};
   read_object_mesh(node, mesh, folder, meshes, object);

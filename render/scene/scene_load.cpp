@@ -82,6 +82,7 @@ LoadedScene load_bare_mesh(const std::filesystem::path& path) {
   }
   LoadedScene loaded{.scene = detail::scene_around(mesh, path.string()), .warnings = {}};
   take_colors(entry, loaded.scene);
+  detail::take_normals(entry, {}, loaded.scene.objects.back());
   const std::string summary = detail::summary_of(entry, mesh.report());
   if (!summary.empty()) loaded.warnings.push_back(path.string() + ": " + summary);
   return loaded;

@@ -1,6 +1,8 @@
 #include "render/scene/scene_mesh.h"
 
 #include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "mesh/vectors.h"
@@ -26,6 +28,8 @@ const MeshCache::Entry& MeshCache::get(const std::filesystem::path& path) {
               .triangulation = triangulate(soup),
               .materials = std::move(soup.materials),
               .polygon_material = std::move(soup.polygon_material),
+              .normals = std::move(soup.normals),
+              .corner_normals = std::move(soup.corner_normals),
               .ignored = std::move(soup.ignored)};
   entry.positions = std::move(soup.positions);
   return entries_.emplace(key, std::move(entry)).first->second;
@@ -64,6 +68,29 @@ void take_material_colors(const MeshCache::Entry& entry, SceneObject& object) {
     object.albedo = first;
   } else {
     object.face_albedo = std::move(faces);
+  }
+}
+
+void take_normals(const MeshCache::Entry& entry, const Transform& transform, SceneObject& object) {
+  if (entry.normals.empty()) return;
+  const auto& [x, y, z] = transform.columns;
+  const std::array<Vec3, 3> turned = {glm::cross(y, z), glm::cross(z, x), glm::cross(x, y)};
+  const TriangleMesh& mesh = object.mesh;
+  for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
+    const std::uint32_t source = mesh.source_triangles()[f];
+    IndexedTriangle corners = entry.triangulation.corners[source];
+    const auto position = [&](std::size_t k) { return mesh.positions()[mesh.triangles()[f][k]]; };
+    // Where the face was turned round its corners 1 and 2 changed places.
+    if (position(1) != transform.apply(entry.positions[entry.triangulation.triangles[source][1]]))
+      std::swap(corners[1], corners[2]);
+    const Vec3 flat = unit(glm::cross(position(1) - position(0), position(2) - position(0)));
+    std::array<glm::vec3, 3>& normals = object.corner_normals.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t i = entry.corner_normals[corners[k]];
+      const Vec3 n = i == PolygonSoup::kNoNormal ? Vec3(0.0) : scaled_to_one(entry.normals[i]);
+      const Vec3 world = unit(turned[0] * n.x + turned[1] * n.y + turned[2] * n.z);
+      normals[k] = glm::vec3(i == PolygonSoup::kNoNormal ? flat : world);
+    }
   }
 }
 

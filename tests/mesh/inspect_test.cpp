@@ -57,11 +57,12 @@ TEST(Inspect, BoundsFarFromTheOriginHaveEnoughDigits) {
 
 TEST(Inspect, TellsOfPolygonsAndOfWhatIsIgnored) {
   const test::TemporaryFolder folder;
-  test::write_text(folder / "a.obj", "v 0 0 0\nv 2 0 1\nv 0 0 2\nv .5 0 1\nvn 0 1 0\nf 1 2 3 4\n");
+  test::write_text(folder / "a.obj", "v 0 0 0\nv 2 0 1\nv 0 0 2\nv .5 0 1\nvt 0 1\nvn 0 1 0\nf 1//1 2 3 4\n");
   const std::string text = to_text(inspect(load_mesh(folder / "a.obj")));
+  EXPECT_NE(text.find("normals       of corners, for smooth shading\n"), std::string::npos) << text;
   EXPECT_NE(text.find("polygons      1 divided into triangles, 1 of them not convex\n"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("ignored       normals\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("ignored       texture coordinates\n"), std::string::npos) << text;
 }
 
 TEST(Inspect, EmptyMeshHasNoBounds) {

@@ -43,10 +43,46 @@ TEST(OddFiles, NamesWhatIsIgnored) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(ignored(corners + "f 1 2 3\n", "a.obj"), Names());
   EXPECT_EQ(ignored(corners + "vn 0 0 1\nvt 0 0\nvn 0 0 1\nl 1 2\nf 1 2 3\n", "a.obj"),
-            (Names{"normals", "texture coordinates", "lines"}));
+            (Names{"texture coordinates", "lines"}));
   EXPECT_EQ(ignored("STCNOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off"),
-            (Names{"texture coordinates", "colors", "normals"}));
+            (Names{"texture coordinates", "colors"}));
   EXPECT_EQ(ignored(test::tetra_ply_binary(false), "a.ply"), Names{"colors"});
+}
+
+TEST(Normals, OfCornersInObj) {
+  const std::string corners =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 2\nvn 0 1 0\nvn nan 0 0\nvn 0 0 0\n";
+  const PolygonSoup soup =
+      parse(corners + "f 1 2 3\nf 1//1 2/7/2 3//-3 4\nf 2//3 4//4 3//9\nf 1/1/x 2// 3/2\n", "a.obj");
+  constexpr std::uint32_t kNone = PolygonSoup::kNoNormal;
+  EXPECT_EQ(soup.corner_normals, (std::vector<std::uint32_t>{kNone, kNone, kNone, 0, 1, 1, kNone, kNone,
+                                                             kNone, kNone, kNone, kNone, kNone}));
+  EXPECT_EQ(soup.normals[0], Vec3(0, 0, 2));
+  const Triangulation triangulation = triangulate(soup);
+  ASSERT_EQ(triangulation.corners.size(), triangulation.triangles.size());
+  for (std::size_t t = 0; t < triangulation.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(soup.corners[triangulation.corners[t][k]], triangulation.triangles[t][k]);
+  EXPECT_TRUE(parse(corners + "f 1 2 3\n", "a.obj").normals.empty()) << "no corner uses them";
+  EXPECT_TRUE(triangulate(parse(corners + "f 1 2 3\n", "a.obj")).corners.empty());
+}
+
+TEST(Normals, OfVerticesInOffAndPly) {
+  const PolygonSoup off =
+      parse("NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 1 0 0\n0 1 0\n1 1 0 0 1 0\n3 0 1 2\n3 1 3 2\n", "a.off");
+  constexpr std::uint32_t kNone = PolygonSoup::kNoNormal;
+  EXPECT_EQ(off.corner_normals, (std::vector<std::uint32_t>{0, 1, kNone, 1, 3, kNone}));
+  EXPECT_EQ(off.normals[1], Vec3(1, 0, 0));
+  const PolygonSoup ply = parse(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float nx\nproperty float x\nproperty float "
+      "ny\nproperty float "
+      "nz\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int "
+      "vertex_indices\nend_header\n"
+      "0 0 0 1 0 0\n-1.#IND 1 0 1 0 0\n0 0 1 0 2 3\n3 0 1 2\n",
+      "a.ply");
+  EXPECT_EQ(ply.positions[2], Vec3(0, 2, 3));
+  EXPECT_EQ(ply.normals[2], Vec3(0, 1, 0));
+  EXPECT_EQ(ply.corner_normals, (std::vector<std::uint32_t>{0, kNone, 2}));
 }
 
 TEST(OddFiles, StripsOfTriangles) {
