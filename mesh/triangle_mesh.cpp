@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "mesh/cavities.h"
-#include "mesh/disjoint_sets.h"
-#include "mesh/manifold_pieces.h"
+#include "mesh/topology/cavities.h"
+#include "mesh/topology/disjoint_sets.h"
+#include "mesh/topology/manifold_pieces.h"
 
 namespace penumbra {
 

@@ -7,7 +7,7 @@
 // structure", 2002). OpenMesh accepts neither three faces at an edge nor two that run along it in the same
 // direction. No face is lost for that. Where more than two faces meet at an edge they are joined in pairs, so
 // that closed surfaces that touch along edges stay closed; what has no partner is cut, and vertices are copied,
-// once for each fan of faces around them (the rule is in mesh/manifold_pieces.h). So such an edge becomes several
+// once for each fan of faces around them (the rule is in mesh/topology/manifold_pieces.h). So such an edge becomes several
 // edges at the same place. Boundary edges belong to every silhouette band, which is what shadows ask of cut edges.
 // A closed surface with a fin stays closed, and so do voxels that touch along an edge. But for the numbering, the
 // result does not depend on the order of the faces.
@@ -76,7 +76,7 @@ struct BuildOptions {
   /// Merge vertices of exactly equal position (+0 equals -0).
   bool weld = true;
   /// Turn closed components of negative signed volume outward, but not those that bound a cavity of another one
-  /// (mesh/cavities.h).
+  /// (mesh/topology/cavities.h).
   bool flip_inside_out = true;
 };
 

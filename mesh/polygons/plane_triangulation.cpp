@@ -1,276 +1,17 @@
 #include "mesh/polygons/plane_triangulation.h"
 
 #include <algorithm>
-#include <array>
-#include <deque>
 #include <map>
 #include <unordered_map>
 #include <utility>
 
+#include "mesh/polygons/square_triangulation.h"
+
 namespace penumbra::detail {
 namespace {
 
-constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;
-/// Four corners of a square round all points come first.
-constexpr std::uint32_t kFrame = 4;
-
-using Side = std::pair<std::uint32_t, std::uint32_t>;  ///< two vertices
-
-std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
-  return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
-/// A triangulation of the square, counter-clockwise.
-class Plane {
- public:
-  explicit Plane(std::span<const Vec2> points);
-
-  /// Makes sides of triangles of the segment from a to b, in pieces where it meets other points, which are
-  /// returned in its order. Nothing where it crosses a segment inserted before.
-  std::optional<std::vector<std::uint32_t>> insert_segment(std::uint32_t a, std::uint32_t b);
-
-  std::size_t size() const { return triangles_.size(); }
-  const IndexedTriangle& triangle(std::uint32_t t) const { return triangles_[t].v; }
-  /// The triangle across the side that runs from corner k to the next.
-  std::uint32_t across(std::uint32_t t, std::uint32_t k) const { return triangles_[t].n[(k + 2) % 3]; }
-  std::uint32_t any_outside() const { return at_[0]; }
-
- private:
-  struct Triangle {
-    IndexedTriangle v;
-    std::array<std::uint32_t, 3> n;  ///< across the side opposite to each corner
-  };
-  /// Corner k of triangle t.
-  struct Corner {
-    std::uint32_t t, k;
-  };
-
-  int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-    return orientation(points_[a], points_[b], points_[c]);
-  }
-  std::uint32_t corner_of(std::uint32_t t, std::uint32_t vertex) const {
-    const IndexedTriangle& v = triangles_[t].v;
-    return v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2;
-  }
-  std::uint32_t back_from(std::uint32_t t, std::uint32_t neighbor) const {
-    const auto& n = triangles_[t].n;
-    return n[0] == neighbor ? 0 : n[1] == neighbor ? 1 : 2;
-  }
-  void set(std::uint32_t t, const IndexedTriangle& v, const std::array<std::uint32_t, 3>& n);
-  void relink(std::uint32_t t, std::uint32_t from, std::uint32_t to);
-  std::uint32_t locate(std::uint32_t p);
-  void insert_point(std::uint32_t p);
-  void split_triangle(std::uint32_t t, std::uint32_t p);
-  void split_side(Corner opposite, std::uint32_t p);
-  void make_delaunay(std::uint32_t p);
-  void flip(Corner opposite);
-  bool lies_ahead(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
-  std::optional<std::uint32_t> advance(std::uint32_t a, std::uint32_t b);
-  std::optional<std::uint32_t> collect_crossed(Corner at, std::uint32_t b, std::deque<Side>& crossed) const;
-  bool turn_crossed(std::uint32_t a, std::uint32_t b, std::deque<Side>& crossed);
-  Corner opposite_of(const Side& side) const;
-
-  std::vector<Vec2> points_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> at_;  ///< for each vertex one of its triangles
-  std::unordered_map<std::uint64_t, bool> fixed_;
-  std::vector<Corner> doubtful_;
-  std::uint32_t last_ = 0, random_ = 1;
-};
-
-Plane::Plane(std::span<const Vec2> points) {
-  points_ = {{-4, -4}, {4, -4}, {4, 4}, {-4, 4}};
-  points_.insert(points_.end(), points.begin(), points.end());
-  at_.assign(points_.size(), 0);
-  triangles_.resize(2);
-  set(0, {0, 1, 2}, {kNoTriangle, 1, kNoTriangle});
-  set(1, {0, 2, 3}, {kNoTriangle, kNoTriangle, 0});
-  for (std::uint32_t p = kFrame; p < points_.size(); ++p) insert_point(p);
-}
-
-void Plane::set(std::uint32_t t, const IndexedTriangle& v, const std::array<std::uint32_t, 3>& n) {
-  triangles_[t] = {v, n};
-  for (const std::uint32_t vertex : v) at_[vertex] = t;
-}
-
-void Plane::relink(std::uint32_t t, std::uint32_t from, std::uint32_t to) {
-  if (t != kNoTriangle) triangles_[t].n[back_from(t, from)] = to;
-}
-
-/// A walk towards p. It begins at a side chosen at random, so that it cannot go round for ever.
-std::uint32_t Plane::locate(std::uint32_t p) {
-  for (std::uint32_t t = last_;;) {
-    random_ = random_ * 1664525u + 1013904223u;
-    std::uint32_t next = kNoTriangle;
-    for (std::uint32_t i = 0; i < 3 && next == kNoTriangle; ++i) {
-      const std::uint32_t k = (i + (random_ >> 16)) % 3;
-      const IndexedTriangle& v = triangles_[t].v;
-      if (turn(v[(k + 1) % 3], v[(k + 2) % 3], p) < 0) next = triangles_[t].n[k];
-    }
-    if (next == kNoTriangle) return last_ = t;
-    t = next;
-  }
-}
-
-void Plane::insert_point(std::uint32_t p) {
-  const std::uint32_t t = locate(p);
-  const IndexedTriangle& v = triangles_[t].v;
-  std::uint32_t on = 3;
-  for (std::uint32_t k = 0; k < 3; ++k)
-    if (turn(v[(k + 1) % 3], v[(k + 2) % 3], p) == 0) on = k;
-  if (on == 3)
-    split_triangle(t, p);
-  else
-    split_side({t, on}, p);
-  make_delaunay(p);
-}
-
-void Plane::split_triangle(std::uint32_t t, std::uint32_t p) {
-  const auto [v, n] = triangles_[t];
-  const auto t1 = static_cast<std::uint32_t>(triangles_.size()), t2 = t1 + 1;
-  triangles_.resize(triangles_.size() + 2);
-  set(t, {p, v[1], v[2]}, {n[0], t1, t2});
-  set(t1, {p, v[2], v[0]}, {n[1], t2, t});
-  set(t2, {p, v[0], v[1]}, {n[2], t, t1});
-  relink(n[1], t, t1);
-  relink(n[2], t, t2);
-  doubtful_ = {{t, 0}, {t1, 0}, {t2, 0}};
-}
-
-void Plane::split_side(Corner opposite, std::uint32_t p) {
-  const std::uint32_t t = opposite.t, k = opposite.k, u = triangles_[t].n[k];
-  const std::uint32_t j = back_from(u, t);
-  const auto [v, n] = triangles_[t];
-  const auto [w, m] = triangles_[u];
-  const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], d = w[j];
-  const std::uint32_t n_ca = n[(k + 1) % 3], n_ab = n[(k + 2) % 3];
-  const std::uint32_t m_bd = m[(j + 1) % 3], m_dc = m[(j + 2) % 3];
-  const auto t1 = static_cast<std::uint32_t>(triangles_.size()), u1 = t1 + 1;
-  triangles_.resize(triangles_.size() + 2);
-  set(t, {p, a, b}, {n_ab, u1, t1});
-  set(t1, {p, c, a}, {n_ca, t, u});
-  set(u, {p, d, c}, {m_dc, t1, u1});
-  set(u1, {p, b, d}, {m_bd, u, t});
-  relink(n_ca, t, t1);
-  relink(m_bd, u, u1);
-  doubtful_ = {{t, 0}, {t1, 0}, {u, 0}, {u1, 0}};
-}
-
-/// Lawson's flips about p. Only those that are certain are made, so they come to an end.
-void Plane::make_delaunay(std::uint32_t p) {
-  while (!doubtful_.empty()) {
-    const Corner at = doubtful_.back();
-    doubtful_.pop_back();
-    const std::uint32_t u = triangles_[at.t].n[at.k];
-    if (u == kNoTriangle) continue;
-    const auto& v = triangles_[at.t].v;
-    const std::uint32_t d = triangles_[u].v[back_from(u, at.t)];
-    if (!is_inside_circle(points_[v[0]], points_[v[1]], points_[v[2]], points_[d])) continue;
-    flip(at);
-    doubtful_.push_back({at.t, corner_of(at.t, p)});
-    doubtful_.push_back({u, corner_of(u, p)});
-  }
-}
-
-/// Turns the side opposite to the corner: a, b, c and d, c, b become a, b, d and a, d, c.
-void Plane::flip(Corner opposite) {
-  const std::uint32_t t = opposite.t, k = opposite.k, u = triangles_[t].n[k];
-  const std::uint32_t j = back_from(u, t);
-  const auto [v, n] = triangles_[t];
-  const auto [w, m] = triangles_[u];
-  const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], d = w[j];
-  const std::uint32_t n_ca = n[(k + 1) % 3], n_ab = n[(k + 2) % 3];
-  const std::uint32_t m_bd = m[(j + 1) % 3], m_dc = m[(j + 2) % 3];
-  set(t, {a, b, d}, {m_bd, u, n_ab});
-  set(u, {a, d, c}, {m_dc, n_ca, t});
-  relink(m_bd, u, t);
-  relink(n_ca, t, u);
-}
-
-/// Of three points on one line: whether c lies on the same side of a as b.
-bool Plane::lies_ahead(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const Vec2 &p = points_[a], &q = points_[b], &r = points_[c];
-  return (q.x > p.x) == (r.x > p.x) && (q.x < p.x) == (r.x < p.x) &&  //
-         (q.y > p.y) == (r.y > p.y) && (q.y < p.y) == (r.y < p.y);
-}
-
-std::optional<std::vector<std::uint32_t>> Plane::insert_segment(std::uint32_t a, std::uint32_t b) {
-  std::vector<std::uint32_t> passed;
-  a += kFrame, b += kFrame;
-  while (a != b) {
-    const std::optional<std::uint32_t> next = advance(a, b);
-    if (!next) return std::nullopt;
-    fixed_[key_of(a, *next)] = true;
-    a = *next;
-    if (a != b) passed.push_back(a - kFrame);
-  }
-  return passed;
-}
-
-/// Makes a side of the segment's piece from a to the first point on it, which is returned. Nothing where that
-/// crosses a fixed side.
-std::optional<std::uint32_t> Plane::advance(std::uint32_t a, std::uint32_t b) {
-  for (std::uint32_t t = at_[a];;) {
-    const std::uint32_t k = corner_of(t, a);
-    const std::uint32_t r = triangles_[t].v[(k + 1) % 3], l = triangles_[t].v[(k + 2) % 3];
-    const int of_r = turn(a, b, r);
-    if (of_r == 0 && lies_ahead(a, b, r)) return r;
-    if (of_r < 0 && turn(a, b, l) > 0) {
-      std::deque<Side> crossed;
-      const std::optional<std::uint32_t> end = collect_crossed({t, k}, b, crossed);
-      if (!end || !turn_crossed(a, *end, crossed)) return std::nullopt;
-      return end;
-    }
-    t = triangles_[t].n[(k + 1) % 3];
-  }
-}
-
-/// The sides that the segment from the corner to b crosses, as far as the first point on it.
-std::optional<std::uint32_t> Plane::collect_crossed(Corner at, std::uint32_t b,
-                                                    std::deque<Side>& crossed) const {
-  const std::uint32_t a = triangles_[at.t].v[at.k];
-  for (;;) {
-    const auto& v = triangles_[at.t].v;
-    const std::uint32_t r = v[(at.k + 1) % 3], l = v[(at.k + 2) % 3];
-    if (fixed_.contains(key_of(r, l))) return std::nullopt;
-    crossed.emplace_back(r, l);
-    const std::uint32_t u = triangles_[at.t].n[at.k], j = back_from(u, at.t);
-    const std::uint32_t d = triangles_[u].v[j];
-    const int side = turn(a, b, d);
-    if (side == 0) return d;
-    // In u the corners are d, l, r: the segment leaves it between d and the one on the other side.
-    at = {u, side > 0 ? (j + 1) % 3 : (j + 2) % 3};
-  }
-}
-
-Plane::Corner Plane::opposite_of(const Side& side) const {
-  for (std::uint32_t t = at_[side.first];;) {
-    const std::uint32_t k = corner_of(t, side.first);
-    if (triangles_[t].v[(k + 1) % 3] == side.second) return {t, (k + 2) % 3};
-    t = triangles_[t].n[(k + 1) % 3];
-  }
-}
-
-/// Turns the crossed sides, each where it can be turned, until none crosses the segment from a to b. The limit
-/// is far beyond what is needed.
-bool Plane::turn_crossed(std::uint32_t a, std::uint32_t b, std::deque<Side>& crossed) {
-  for (std::size_t left = 4 * crossed.size() * crossed.size() + 16; !crossed.empty(); --left) {
-    if (left == 0) return false;
-    const Side side = crossed.front();
-    crossed.pop_front();
-    const Corner at = opposite_of(side);
-    const std::uint32_t u = triangles_[at.t].n[at.k];
-    const std::uint32_t p = triangles_[at.t].v[at.k], q = triangles_[u].v[back_from(u, at.t)];
-    if (turn(p, q, side.first) * turn(p, q, side.second) >= 0) {
-      crossed.push_back(side);
-      continue;
-    }
-    flip(at);
-    const bool ends_there = p == a || p == b || q == a || q == b;
-    if (!ends_there && turn(a, b, p) * turn(a, b, q) < 0) crossed.emplace_back(p, q);
-  }
-  return true;
-}
+constexpr std::uint32_t kFrame = SquareTriangulation::kFrame;
+using Side = std::pair<std::uint32_t, std::uint32_t>;  ///< two points
 
 /// How often the line runs along each piece, forth less back, and the points that it passes on the way.
 struct Piece {
@@ -279,7 +20,7 @@ struct Piece {
 };
 
 /// How often the line winds round each triangle; nothing where it is not once at most, and all one way.
-std::optional<std::vector<int>> winding_numbers(const Plane& plane,
+std::optional<std::vector<int>> winding_numbers(const SquareTriangulation& plane,
                                                 const std::unordered_map<std::uint64_t, int>& net) {
   constexpr int kUnknown = 2;
   std::vector<int> winding(plane.size(), kUnknown);
@@ -291,9 +32,9 @@ std::optional<std::vector<int>> winding_numbers(const Plane& plane,
     open.pop_back();
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t u = plane.across(t, k);
-      if (u == kNoTriangle || winding[u] != kUnknown) continue;
+      if (u == SquareTriangulation::kNoTriangle || winding[u] != kUnknown) continue;
       const std::uint32_t a = plane.triangle(t)[k], b = plane.triangle(t)[(k + 1) % 3];
-      const auto found = net.find(key_of(a, b));
+      const auto found = net.find(side_key(a, b));
       const int along = found == net.end() ? 0 : a < b ? found->second : -found->second;
       winding[u] = winding[t] - along;  // t is on the left of a → b
       least = std::min(least, winding[u]);
@@ -316,7 +57,7 @@ std::optional<std::vector<IndexedTriangle>> triangulate_line(std::span<const Vec
     if (a != b) pieces[std::minmax(a, b)].net += a < b ? 1 : -1;
   }
   // 2. All points, all pieces.
-  Plane plane(points);
+  SquareTriangulation plane(points);
   std::unordered_map<std::uint64_t, int> net;
   for (auto& [side, piece] : pieces) {
     std::optional<std::vector<std::uint32_t>> passed = plane.insert_segment(side.first, side.second);
@@ -324,7 +65,7 @@ std::optional<std::vector<IndexedTriangle>> triangulate_line(std::span<const Vec
     std::uint32_t from = side.first;
     passed->push_back(side.second);
     for (const std::uint32_t to : *passed) {
-      net[key_of(from + kFrame, to + kFrame)] += from < to ? piece.net : -piece.net;
+      net[side_key(from + kFrame, to + kFrame)] += from < to ? piece.net : -piece.net;
       from = to;
     }
     passed->pop_back();

@@ -5,10 +5,9 @@
 // line as its boundary. They cover what the line winds round once. Nothing where it crosses itself, winds
 // round something twice, or winds round one part to the left and another to the right.
 //
-// A constrained triangulation: points are inserted one after another (Lawson 1977), then the line's pieces by
-// turning the edges that they cross (Sloan, "A fast algorithm for generating constrained Delaunay
-// triangulations", 1993). All signs are exact. Where a point lies on a piece of the line between two others,
-// a triangle without area closes the gap, so that a neighbor along the whole piece stays a neighbor.
+// A constrained triangulation (square_triangulation.h). All signs are exact. Where a point lies on a piece of the line
+// between two others, a triangle without area closes the gap, so that a neighbor along the whole piece stays a
+// neighbor.
 #pragma once
 
 #include <cstdint>

@@ -32,10 +32,10 @@ struct SceneObject {
   Vec3 albedo{0.8};
   /// Whether it hides lights from what lies behind it.
   bool casts = true;
-  /// Albedos where its faces have several: empty, or one for each face, which then counts instead.
-  FaceColors face_albedo{};
   /// Unit normals at the corners of each face, for smooth shading: only RGB depends on them. Empty: faces are flat.
   std::vector<std::array<glm::vec3, 3>> corner_normals{};
+  /// Albedos where its faces have several: empty, or one for each face, which then counts instead.
+  FaceColors face_albedo{};
 
   const Vec3& albedo_of(std::uint32_t face) const {
     return face < face_albedo.of_face.size() ? face_albedo.colors[face_albedo.of_face[face]] : albedo;

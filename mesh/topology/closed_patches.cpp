@@ -1,11 +1,12 @@
-#include "mesh/closed_patches.h"
+#include "mesh/topology/closed_patches.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <set>
+#include <tuple>
 
-#include "mesh/disjoint_sets.h"
+#include "mesh/topology/disjoint_sets.h"
 
 namespace penumbra::detail {
 namespace {
@@ -32,9 +33,10 @@ class Patches {
     double area;
     std::vector<IndexedTriangle> faces;
     std::uint32_t patch;
-    /// By area, then by the faces themselves, so that their order in the file plays no part.
+    /// By area, then by the faces themselves, so that their order in the file plays no part. Of faces that repeat each
+    /// other the last comes first.
     bool operator<(const Candidate& other) const {
-      return area != other.area ? area < other.area : faces < other.faces;
+      return std::tie(area, faces, other.patch) < std::tie(other.area, other.faces, patch);
     }
   };
 

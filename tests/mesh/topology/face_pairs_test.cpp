@@ -1,4 +1,4 @@
-#include "mesh/face_pairs.h"
+#include "mesh/topology/face_pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mesh/face_pairs.h"
+#include "mesh/topology/face_pairs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "mesh/closed_patches.h"
+#include "mesh/topology/closed_patches.h"
 #include "mesh/vectors.h"
 
 namespace penumbra::detail {

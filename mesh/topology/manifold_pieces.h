@@ -8,7 +8,7 @@
 // (2001). It does not depend on the order of the faces:
 //   1. An edge with exactly two faces, in opposite directions, connects them.
 //   2. At an edge with more faces, those that may be parts of closed surfaces are joined in pairs by their angle
-//      about it, where as many run one way as the other; then the others (mesh/face_pairs.h). What is left, and
+//      about it, where as many run one way as the other; then the others (mesh/topology/face_pairs.h). What is left, and
 //      two faces in one direction, is cut.
 //   3. A vertex gets one copy for each fan of faces that are connected around it.
 //   4. Where both sides of a cut run between the same two copies, they are stitched again.
@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/half_edges.h"
+#include "mesh/topology/half_edges.h"
 #include "penumbra/mesh/triangle_mesh.h"
 
 namespace penumbra::detail {

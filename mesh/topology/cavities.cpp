@@ -1,4 +1,4 @@
-#include "mesh/cavities.h"
+#include "mesh/topology/cavities.h"
 
 #include <algorithm>
 #include <cmath>

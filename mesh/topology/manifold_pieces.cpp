@@ -1,4 +1,4 @@
-#include "mesh/manifold_pieces.h"
+#include "mesh/topology/manifold_pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "mesh/face_pairs.h"
-#include "mesh/first_index.h"
+#include "mesh/topology/face_pairs.h"
+#include "mesh/topology/first_index.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::detail {

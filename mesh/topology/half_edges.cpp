@@ -1,10 +1,10 @@
-#include "mesh/half_edges.h"
+#include "mesh/topology/half_edges.h"
 
 #include <algorithm>
 #include <numeric>
 #include <tuple>
 
-#include "mesh/disjoint_sets.h"
+#include "mesh/topology/disjoint_sets.h"
 
 namespace penumbra::detail {
 

@@ -18,7 +18,7 @@
 #include <span>
 #include <vector>
 
-#include "mesh/half_edges.h"
+#include "mesh/topology/half_edges.h"
 
 namespace penumbra::detail {
 
