@@ -1,9 +1,12 @@
 #include "penumbra/mesh/inspect.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <vector>
+
+#include "mesh/vectors.h"
 
 namespace penumbra {
 namespace {
@@ -14,10 +17,40 @@ std::string number(double value) {
   return text;
 }
 
-std::string point(const Vec3& p) {
-  char text[96];
-  std::snprintf(text, sizeof text, "(%.6g, %.6g, %.6g)", p.x, p.y, p.z);
-  return text;
+/// Enough digits for a millionth of the largest side, wherever the box lies.
+std::string box(const Bounds& bounds) {
+  const double side = detail::largest_component(bounds.high - bounds.low);
+  const double farthest =
+      std::max(detail::largest_component(bounds.low), detail::largest_component(bounds.high));
+  const double shift = side > 0.0 ? std::ceil(std::log10(farthest / side)) : 0.0;
+  const int digits = std::clamp(6 + static_cast<int>(std::clamp(shift, 0.0, 11.0)), 6, 17);
+  const auto point = [digits](const Vec3& p) {
+    char text[128];
+    std::snprintf(text, sizeof text, "(%.*g, %.*g, %.*g)", digits, p.x, digits, p.y, digits, p.z);
+    return std::string(text);
+  };
+  return point(bounds.low) + " to " + point(bounds.high);
+}
+
+std::string polygon_line(const PolygonReport& report) {
+  if (report.divided == 0) return {};
+  std::string line = "polygons      " + std::to_string(report.divided) + " divided into triangles, " +
+                     std::to_string(report.concave) + " of them not convex";
+  if (report.crossing > 0)
+    line += "; " + std::to_string(report.crossing) + " that cross themselves, from their first corner";
+  return line + "\n";
+}
+
+std::string material_line(const MeshFindings& f) {
+  if (f.materials == 0) return {};
+  return "materials     " + std::to_string(f.materials) + ", " + std::to_string(f.colored_materials) +
+         " with a diffuse color\n";
+}
+
+std::string ignored_line(const std::vector<std::string>& ignored) {
+  std::string line;
+  for (const std::string& what : ignored) line.append(line.empty() ? "ignored       " : ", ").append(what);
+  return line.empty() ? line : line + "\n";
 }
 
 /// "  12 duplicate faces kept (first: 5, 9, 40)"; nothing where the list is empty.
@@ -42,12 +75,14 @@ std::string count_line(std::size_t count, const char* what) {
   return line.append(std::to_string(count)).append(" ").append(what).append("\n");
 }
 
-std::string findings_of_build(const BuildReport& report) {
+std::string findings_of_build(const BuildReport& report, const PolygonReport& polygons) {
   std::string text =
+      count_line(polygons.skipped, "polygons with fewer than three corners left out") +
       list_line(report.degenerate, "degenerate faces left out") +
       list_line(report.zero_area, "faces without area kept") +
       list_line(report.duplicates, "faces that repeat another kept") +
-      count_line(report.non_manifold_edges, "edges with more than two faces, cut") +
+      count_line(report.joined_edges, "edges with more than two faces, which were joined in pairs") +
+      count_line(report.non_manifold_edges - report.joined_edges, "edges with more than two faces, cut") +
       count_line(report.misoriented_edges, "edges between faces of opposite orientation, cut") +
       count_line(report.non_manifold_vertices, "vertices between separate fans of faces, split") +
       count_line(report.split_vertices, "vertices added by cutting and splitting") +
@@ -85,18 +120,29 @@ MeshFindings inspect(const TriangleMesh& mesh) {
   return findings;
 }
 
+MeshFindings inspect(const LoadedMesh& loaded) {
+  MeshFindings findings = inspect(loaded.mesh);
+  findings.polygons = loaded.polygons;
+  findings.has_normals = loaded.has_normals;
+  findings.materials = loaded.materials.size();
+  findings.colored_materials = static_cast<std::size_t>(
+      std::ranges::count_if(loaded.materials, [](const Material& m) { return m.color.has_value(); }));
+  findings.ignored = loaded.ignored;
+  return findings;
+}
+
 std::string to_text(const MeshFindings& f) {
   std::string text = "faces         " + std::to_string(f.faces) + ", " + std::to_string(f.edges) +
-                     " edges, " + std::to_string(f.vertices) + " vertices\n";
+                     " edges, " + std::to_string(f.vertices) + " vertices\n" + polygon_line(f.polygons);
   text += "components    " + std::to_string(f.components) + ", " + std::to_string(f.closed_components) +
           " closed\n";
   text += f.closed ? "surface       closed and consistently oriented\n"
                    : "surface       open: " + std::to_string(f.boundary_edges) + " boundary edges\n";
-  text += f.bounds.empty() ? "bounds        empty\n"
-                           : "bounds        " + point(f.bounds.low) + " to " + point(f.bounds.high) + "\n";
+  text += f.bounds.empty() ? "bounds        empty\n" : "bounds        " + box(f.bounds) + "\n";
   text += "area          " + number(f.surface_area) + "\n";
   text += "volume        " + number(f.signed_volume) + (f.closed ? "\n" : " (closed components only)\n");
-  return text + findings_of_build(f.build);
+  if (f.has_normals) text += "normals       of corners, for smooth shading\n";
+  return text + material_line(f) + ignored_line(f.ignored) + findings_of_build(f.build, f.polygons);
 }
 
 }  // namespace penumbra

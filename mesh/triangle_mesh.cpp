@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 
-#include "mesh/manifold_pieces.h"
+#include "mesh/topology/cavities.h"
+#include "mesh/topology/disjoint_sets.h"
+#include "mesh/topology/manifold_pieces.h"
 
 namespace penumbra {
 
@@ -112,25 +113,13 @@ std::vector<std::array<EdgeId, 3>> read_face_edges(const HalfEdgeMesh& mesh) {
 
 /// Components in the order of their lowest faces, each with its faces in ascending order.
 std::vector<Component> find_components(const std::vector<Edge>& edges, std::size_t face_count) {
-  std::vector<std::uint32_t> parent(face_count);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t f) {
-    while (parent[f] != f) {
-      f = parent[f] = parent[parent[f]];
-    }
-    return f;
-  };
-  for (const Edge& e : edges) {
-    if (!e.is_boundary()) {
-      const auto [low, high] = std::minmax({root(static_cast<std::uint32_t>(e.left)),  //
-                                            root(static_cast<std::uint32_t>(e.right))});
-      parent[high] = low;
-    }
-  }
+  detail::DisjointSets sets(face_count);
+  for (const Edge& e : edges)
+    if (!e.is_boundary()) sets.join(static_cast<std::uint32_t>(e.left), static_cast<std::uint32_t>(e.right));
   std::vector<Component> components;
   std::vector<std::uint32_t> component_of(face_count);
   for (std::uint32_t f = 0; f < face_count; ++f) {
-    if (const std::uint32_t first = root(f); first == f) {
+    if (const std::uint32_t first = sets.find(f); first == f) {
       component_of[f] = static_cast<std::uint32_t>(components.size());
       components.push_back({.faces = {}, .closed = true, .signed_volume = 0.0});
     } else {
@@ -191,10 +180,14 @@ TriangleMesh TriangleMesh::build(std::span<const Vec3> positions, std::span<cons
   data->report = std::move(pieces.report);
   data->components = find_components(data->edges, data->triangles.size());
 
-  std::vector<std::uint8_t> flipped(data->triangles.size(), 0);
-  for (Component& component : data->components) {
+  for (Component& component : data->components)
     component.signed_volume = signed_volume(component, data->positions, data->triangles);
-    if (!options.flip_inside_out || !component.closed || !(component.signed_volume < 0.0)) {
+  const std::vector<bool> is_cavity =
+      detail::find_cavities(data->components, data->positions, data->triangles);
+  std::vector<std::uint8_t> flipped(data->triangles.size(), 0);
+  for (std::size_t i = 0; i < data->components.size(); ++i) {
+    Component& component = data->components[i];
+    if (!options.flip_inside_out || !component.closed || !(component.signed_volume < 0.0) || is_cavity[i]) {
       continue;
     }
     component.signed_volume = -component.signed_volume;

@@ -12,6 +12,7 @@
 #include "render/occlusion_textures/occlusion_textures_method.h"
 #include "render/rays/camera_rays.h"
 #include "render/receivers/unlit.h"
+#include "render/scene/scene_limits.h"
 #include "render/shading/shading.h"
 
 namespace penumbra {
@@ -134,6 +135,8 @@ RenderResult Renderer::render(const RenderOptions& options) {
     require_valid(light.shape);
     require_taken(info, light.shape);
   }
+  if (const std::string complaint = detail::out_of_range(state_->scene); !complaint.empty())
+    throw SceneError("scene: " + complaint);
   const RayScene& rays = casters.rays();
   clock.restart();  // one-time set-up, not a stage
   const SurfaceBuffer& surface = state_->look(options);

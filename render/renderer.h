@@ -82,7 +82,8 @@ class Renderer {
   void set_light(std::size_t index, const Light& light);
 
   /// Throws UsageError for an unknown method, options outside their domain, a light that is not valid or that the
-  /// method does not take, a side outside 1 to 65,536; SystemError where OpenGL does not start; Cancelled.
+  /// method does not take, a side outside 1 to 65,536; SceneError where something is too far from the casters
+  /// (docs/scene-file.md); SystemError where OpenGL does not start; Cancelled.
   RenderResult render(const RenderOptions& options);
   /// The next picture finds everything anew but for one-time set-up, though nothing has changed: for timing.
   void forget();

@@ -47,7 +47,7 @@ std::string json_of(const MeshFindings& findings, const std::optional<RepairResu
 }
 
 void run(const Arguments& arguments) {
-  const MeshFindings findings = inspect(read_mesh(arguments.mesh));
+  const MeshFindings findings = inspect(load_mesh(arguments.mesh));
   std::optional<RepairResult> repaired;
   if (!arguments.repair.empty()) repaired = repair_file(arguments);
   print(arguments.json ? json_of(findings, repaired) : text_of(findings, repaired));

@@ -17,10 +17,18 @@ Json report_of(const BuildReport& report) {
           {"zero_area", report.zero_area},
           {"duplicates", report.duplicates},
           {"non_manifold_edges", report.non_manifold_edges},
+          {"joined_edges", report.joined_edges},
           {"non_manifold_vertices", report.non_manifold_vertices},
           {"misoriented_edges", report.misoriented_edges},
           {"flipped_components", report.flipped_components},
           {"flipped_faces", report.flipped_faces}};
+}
+
+Json report_of(const PolygonReport& report) {
+  return {{"divided", report.divided},
+          {"concave", report.concave},
+          {"crossing", report.crossing},
+          {"skipped", report.skipped}};
 }
 
 Json report_of(const ComponentRepair& r) {
@@ -47,6 +55,11 @@ Json findings_report(const MeshFindings& f) {
           {"closed_components", f.closed_components},
           {"boundary_edges", f.boundary_edges},
           {"boundary_vertices", f.boundary_vertices},
+          {"polygons", report_of(f.polygons)},
+          {"has_normals", f.has_normals},
+          {"materials", f.materials},
+          {"colored_materials", f.colored_materials},
+          {"ignored", f.ignored},
           {"build", report_of(f.build)},
           {"closed", f.closed},
           {"bounds", {{"low", array_of(f.bounds.low)}, {"high", array_of(f.bounds.high)}}},

@@ -36,6 +36,21 @@ double out_of_range_value(std::string_view token) {
   return negative ? -size : size;
 }
 
+/// -1.#IND, 1.#QNAN00 and the like.
+bool parse_not_finite(std::string_view token, double& value) {
+  const double sign = token.starts_with('-') ? -1.0 : 1.0;
+  token.remove_prefix(token.find('#') + 1);
+  token = token.substr(0, token.find_last_not_of('0') + 1);
+  if (token == "INF") {
+    value = sign * std::numeric_limits<double>::infinity();
+  } else if (token == "IND" || token == "QNAN" || token == "SNAN") {
+    value = std::numeric_limits<double>::quiet_NaN();
+  } else {
+    return false;
+  }
+  return true;
+}
+
 std::string_view without_plus(std::string_view token) {
   const bool plus = token.size() > 1 && token[0] == '+' && token[1] != '-';
   return plus ? token.substr(1) : token;
@@ -66,8 +81,14 @@ std::string_view as_text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+std::string_view without_mark(std::string_view text) {
+  return text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0);
+}
+
 bool parse_number(std::string_view token, double& value) {
   token = without_plus(token);
+  if (token.size() >= 5 && token.substr(token.starts_with('-')).starts_with("1.#"))
+    return parse_not_finite(token, value);
   const auto [end, error] = std::from_chars(token.begin(), token.end(), value);
   if (error == std::errc::invalid_argument || end != token.end()) {
     return false;
@@ -86,9 +107,7 @@ bool parse_number(std::string_view token, std::int64_t& value) {
 
 TextCursor::TextCursor(std::string_view text, std::string name, char comment, bool joins_lines)
     : text_(text), name_(std::move(name)), comment_(comment), joins_lines_(joins_lines) {
-  if (text_.starts_with("\xEF\xBB\xBF")) {  // a byte order mark some editors add
-    at_ = 3;
-  }
+  at_ = text_.size() - without_mark(text_).size();
 }
 
 void TextCursor::skip_blanks() {
@@ -110,8 +129,7 @@ void TextCursor::skip_blanks() {
 std::string_view TextCursor::token_of_line() {
   skip_blanks();
   const std::size_t begin = at_;
-  while (!at_end() && !is_blank(text_[at_]) && !is_newline(text_[at_]) &&
-         (comment_ == 0 || text_[at_] != comment_)) {
+  while (!at_end() && !is_blank(text_[at_]) && !is_newline(text_[at_]) && !begins_comment(begin)) {
     if (joins_lines_ && text_[at_] == '\\' && at_ > begin && at_ + 1 < text_.size() &&
         is_newline(text_[at_ + 1])) {
       break;
@@ -119,6 +137,21 @@ std::string_view TextCursor::token_of_line() {
     ++at_;
   }
   return text_.substr(begin, at_ - begin);
+}
+
+/// The # of -1.#IND, 1.#QNAN and 1.#INF begins none.
+bool TextCursor::begins_comment(std::size_t token) const {
+  if (comment_ == 0 || text_[at_] != comment_) return false;
+  const std::string_view before = text_.substr(token, at_ - token);
+  const std::string_view behind = text_.substr(at_ + 1, 1);
+  return !(before.ends_with("1.") && behind.find_first_of("IQS") == 0);
+}
+
+std::string TextCursor::rest_of_line() {
+  std::string rest;
+  for (std::string_view token = token_of_line(); !token.empty(); token = token_of_line())
+    rest.append(rest.empty() ? "" : " ").append(token);
+  return rest;
 }
 
 std::string_view TextCursor::token() {

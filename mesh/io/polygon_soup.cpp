@@ -1,11 +1,13 @@
 #include "penumbra/mesh/io/polygon_soup.h"
 
 #include <algorithm>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"
+#include "mesh/io/material_colors.h"
+#include "mesh/io/read_file.h"
+#include "mesh/polygons/polygon_triangles.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra {
@@ -31,46 +33,41 @@ void check_soup(const PolygonSoup& soup, const std::string& name) {
   }
 }
 
-std::vector<std::byte> read_bytes(const fs::path& path) {
-  const std::string name = path.string();
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (status.type() == fs::file_type::not_found) {
-    detail::fail_reading(name, "", "no such file", "check the path");
-  }
-  if (status.type() == fs::file_type::none) {
-    detail::fail_reading(name, "", "cannot be opened: " + error.message(), "check the path and permissions");
-  }
-  if (status.type() != fs::file_type::regular) {
-    const bool folder = status.type() == fs::file_type::directory;
-    detail::fail_reading(name, "", folder ? "is a folder" : "is not a regular file", "name a mesh file");
-  }
-  std::ifstream in(path, std::ios::binary);
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (!in || error) {
-    detail::fail_reading(name, "", "cannot be opened", "check its permissions");
-  }
-  if (size == 0) {
-    detail::fail_reading(name, "", "the file is empty", "export it again");
-  }
-  std::vector<std::byte> bytes(size);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(in.gcount()) != size) {
-    detail::fail_reading(name, "byte " + std::to_string(in.gcount()), "reading stopped", "check the disk");
-  }
-  return bytes;
+/// Fails for what is a mesh file only after it was unpacked or converted.
+void refuse_wrapped(std::span<const std::byte> bytes, const std::string& name) {
+  using namespace std::string_view_literals;
+  static constexpr std::pair<std::string_view, const char*> kPacked[] = {{"\x1F\x8B"sv, "gzip"},
+                                                                         {"PK\3\4"sv, "zip"},
+                                                                         {"BZh"sv, "bzip2"},
+                                                                         {"\xFD"
+                                                                          "7zXZ\0"sv,
+                                                                          "xz"},
+                                                                         {"\x28\xB5\x2F\xFD"sv, "zstd"},
+                                                                         {"7z\xBC\xAF\x27\x1C"sv, "7z"}};
+  const std::string_view text = detail::as_text(bytes);
+  for (const auto& [begin, format] : kPacked)
+    if (text.starts_with(begin))
+      detail::fail_reading(name, "", std::string("is compressed (") + format + ")", "unpack it first");
+  const bool every_other_is_0 =
+      text.size() >= 4 && text[0] != 0 && text[1] == 0 && text[2] != 0 && text[3] == 0;
+  const bool is_wide = text.starts_with("\xFF\xFE"sv) || text.starts_with("\xFE\xFF"sv) ||
+                       (every_other_is_0 && !detail::has_binary_stl_size(bytes));
+  if (is_wide) detail::fail_reading(name, "", "is text in UTF-16", "save it as UTF-8");
 }
 
 }  // namespace
 
 PolygonSoup read_polygon_soup(const fs::path& path) {
-  return parse_polygon_soup(read_bytes(path), path.string());
+  PolygonSoup soup = parse_polygon_soup(detail::read_bytes(path), path.string());
+  for (const std::string& file : soup.material_files) detail::add_colors(soup, path.parent_path(), file);
+  return soup;
 }
 
 PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.empty()) {
     detail::fail_reading(name, "", "the file is empty", "export it again");
   }
+  refuse_wrapped(bytes, name);
   PolygonSoup soup = detail::recognize_format(bytes, name).read(bytes, name);
   check_soup(soup, name);
   return soup;
@@ -79,27 +76,47 @@ PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::stri
 Triangulation triangulate(const PolygonSoup& soup) {
   Triangulation result;
   result.triangles.reserve(soup.corners.size() - std::min(soup.corners.size(), 2 * soup.polygon_count()));
+  std::vector<Vec3> corners;
   for (std::uint32_t f = 0; f < soup.polygon_count(); ++f) {
     const std::uint32_t* corner = soup.corners.data() + soup.first_corner[f];
     const std::uint32_t size = soup.first_corner[f + 1] - soup.first_corner[f];
-    result.fanned_polygons += size > 3;
-    result.skipped_polygons += size < 3;
-    for (std::uint32_t k = 2; k < size; ++k) {
-      result.triangles.push_back({corner[0], corner[k - 1], corner[k]});
+    result.report.skipped += size < 3;
+    result.report.divided += size > 3;
+    const auto add = [&](const IndexedTriangle& t) {
+      result.triangles.push_back({corner[t[0]], corner[t[1]], corner[t[2]]});
       result.source_polygon.push_back(f);
-    }
+      const std::uint32_t first = soup.first_corner[f];
+      if (!soup.corner_normals.empty()) result.corners.push_back({first + t[0], first + t[1], first + t[2]});
+    };
+    if (size == 3) add({0, 1, 2});
+    if (size <= 3) continue;
+    corners.clear();
+    for (std::uint32_t k = 0; k < size; ++k) corners.push_back(soup.positions[corner[k]]);
+    const detail::PolygonTriangles divided = detail::divide_polygon(corners);
+    result.report.concave += divided.is_concave;
+    result.report.crossing += divided.crosses_itself;
+    std::ranges::for_each(divided.triangles, add);
   }
   return result;
 }
 
-TriangleMesh read_mesh(const fs::path& path, const BuildOptions& options) {
+LoadedMesh load_mesh(const fs::path& path, const BuildOptions& options) {
   const PolygonSoup soup = read_polygon_soup(path);
-  TriangleMesh mesh = TriangleMesh::build(soup.positions, triangulate(soup).triangles, options);
-  if (mesh.empty()) {
+  const Triangulation triangulation = triangulate(soup);
+  LoadedMesh loaded{.mesh = TriangleMesh::build(soup.positions, triangulation.triangles, options),
+                    .polygons = triangulation.report,
+                    .has_normals = !soup.corner_normals.empty(),
+                    .materials = soup.materials,
+                    .ignored = soup.ignored};
+  if (loaded.mesh.empty()) {
     detail::fail_reading(path.string(), "", "every face in it has fewer than three distinct corners",
                          "export the mesh at another scale or precision");
   }
-  return mesh;
+  return loaded;
+}
+
+TriangleMesh read_mesh(const fs::path& path, const BuildOptions& options) {
+  return load_mesh(path, options).mesh;
 }
 
 }  // namespace penumbra

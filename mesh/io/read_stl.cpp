@@ -1,5 +1,5 @@
-// Stereolithography files, ASCII and binary. The size of a binary file gives it away even where its header
-// says "solid". Normals are skipped: the corners' order is what counts. Vertices are not shared; building the
+// Stereolithography files, ASCII and binary. A binary file whose header says "solid" is told by its size or, where it
+// has bytes to spare, by not being text. Normals are skipped: the corners' order is what counts. Vertices are not shared; building the
 // mesh welds them.
 #include <algorithm>
 
@@ -17,11 +17,25 @@ std::uint32_t binary_count(std::span<const std::byte> bytes) {
   return cursor.remaining() < 4 ? 0 : cursor.read<std::uint32_t>();
 }
 
+/// Whether it can be text: no control characters but blanks and ends of lines near its beginning.
+bool looks_like_text(std::span<const std::byte> bytes) {
+  return std::ranges::all_of(bytes.first(std::min<std::size_t>(bytes.size(), 1024)), [](std::byte b) {
+    const auto c = static_cast<unsigned char>(b);
+    return c >= ' ' || (c >= '\t' && c <= '\r');
+  });
+}
+
 std::string lower_case(std::string_view text) {
   std::string lower(text);
   std::ranges::transform(lower, lower.begin(),
                          [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   return lower;
+}
+
+/// Whether all facets that a binary file states fit in it; bytes to spare are allowed.
+bool has_room_for_binary_stl(std::span<const std::byte> bytes) {
+  return bytes.size() >= kHeaderBytes + 4 && binary_count(bytes) > 0 &&
+         binary_count(bytes) <= (bytes.size() - kHeaderBytes - 4) / kFacetBytes;
 }
 
 PolygonSoup read_binary(std::span<const std::byte> bytes, const std::string& name) {
@@ -98,7 +112,7 @@ PolygonSoup read_ascii(std::span<const std::byte> bytes, const std::string& name
 }  // namespace
 
 bool begins_like_stl(std::span<const std::byte> bytes) {
-  return as_text(bytes).starts_with("solid");
+  return without_mark(as_text(bytes)).starts_with("solid");
 }
 
 bool has_binary_stl_size(std::span<const std::byte> bytes) {
@@ -110,7 +124,9 @@ bool has_binary_stl_size(std::span<const std::byte> bytes) {
 PolygonSoup read_stl(std::span<const std::byte> bytes, const std::string& name) {
   TextCursor start(as_text(bytes), name, 0);
   const bool says_solid = lower_case(start.token().substr(0, 6)) == "solid";
-  return says_solid && !has_binary_stl_size(bytes) ? read_ascii(bytes, name) : read_binary(bytes, name);
+  const bool is_text = says_solid && !has_binary_stl_size(bytes) &&
+                       (looks_like_text(bytes) || !has_room_for_binary_stl(bytes));
+  return is_text ? read_ascii(bytes, name) : read_binary(bytes, name);
 }
 
 }  // namespace penumbra::detail

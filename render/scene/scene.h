@@ -2,7 +2,10 @@
 // what was not understood.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +16,13 @@
 
 namespace penumbra {
 
+/// Colors of single faces.
+struct FaceColors {
+  std::vector<Vec3> colors{};
+  /// For each face of the mesh a number in `colors`.
+  std::vector<std::uint32_t> of_face{};
+};
+
 struct SceneObject {
   /// The mesh's path as the scene file has it.
   std::string name{};
@@ -22,6 +32,14 @@ struct SceneObject {
   Vec3 albedo{0.8};
   /// Whether it hides lights from what lies behind it.
   bool casts = true;
+  /// Unit normals at the corners of each face, for smooth shading: only RGB depends on them. Empty: faces are flat.
+  std::vector<std::array<glm::vec3, 3>> corner_normals{};
+  /// Albedos where its faces have several: empty, or one for each face, which then counts instead.
+  FaceColors face_albedo{};
+
+  const Vec3& albedo_of(std::uint32_t face) const {
+    return face < face_albedo.of_face.size() ? face_albedo.colors[face_albedo.of_face[face]] : albedo;
+  }
 };
 
 struct Scene {

@@ -4,6 +4,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/scene/default_scene.h"
 #include "render/scene/scene_lights.h"
+#include "render/scene/scene_limits.h"
 #include "render/scene/scene_mesh.h"
 #include "render/scene/scene_node.h"
 #include "render/scene/transform.h"
@@ -36,28 +37,33 @@ Camera read_camera(const SceneNode& node) {
   return camera;
 }
 
-TriangleMesh read_object_mesh(const SceneNode& node, const SceneNode& mesh_node,
-                              const std::filesystem::path& folder, MeshCache& meshes) {
+/// Fills the object's mesh, the colors of its materials and its normals.
+void read_object_mesh(const SceneNode& node, const SceneNode& mesh_node, const std::filesystem::path& folder,
+                      MeshCache& meshes, SceneObject& object) {
   const std::string name = mesh_node.text();
   if (name.empty()) mesh_node.fail("is empty; name a mesh file");
   const Transform transform = read_transform(node);
   try {
     const MeshCache::Entry& entry = meshes.get(folder / name);
-    TriangleMesh mesh = place_mesh(entry, transform);
-    const std::string summary = summary_of(entry.triangulation, mesh.report());
+    object.mesh = place_mesh(entry, transform);
+    take_material_colors(entry, object);
+    const auto smooth = node.find("smooth");
+    if (!smooth || smooth->boolean()) take_normals(entry, transform, object);
+    const std::string summary = summary_of(entry, object.mesh.report());
     if (!summary.empty()) mesh_node.warn(name + ": " + summary);
-    return mesh;
   } catch (const MeshError& e) {
     throw MeshError(mesh_node.located(e.what()));
   }
 }
 
 SceneObject read_object(const SceneNode& node, const std::filesystem::path& folder, MeshCache& meshes) {
-  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "casts"});
+  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "smooth", "casts"});
   const SceneNode mesh = node.required("mesh");
-  SceneObject object{.name = mesh.text(), .mesh = read_object_mesh(node, mesh, folder, meshes)};
+  SceneObject object{.name = mesh.text()};
+  read_object_mesh(node, mesh, folder, meshes, object);
   if (const auto albedo = node.find("albedo")) {
     object.albedo = albedo->number_or_vec3();
+    object.face_albedo = {};
     for (int i = 0; i < 3; ++i)
       if (object.albedo[i] < 0.0 || object.albedo[i] > 1.0) albedo->fail("must lie between 0 and 1");
   }
@@ -85,6 +91,9 @@ LoadedScene read_scene(const nlohmann::json& document, const std::filesystem::pa
   for (const SceneNode& node : objects.elements()) scene.objects.push_back(read_object(node, folder, meshes));
   if (scene.objects.empty()) objects.fail("is empty; add an object");
   if (!camera) scene.camera = camera_for(scene.bounds());
+
+  if (const std::string complaint = out_of_range(scene); !complaint.empty())
+    throw SceneError(name + ": " + complaint);
 
   scene.document = document.dump();
   loaded.warnings = std::move(notes.warnings);

@@ -60,6 +60,17 @@ bool is_scene_file(const std::filesystem::path& path) {
   return extension == ".json";
 }
 
+/// Colors of materials stand in the mesh's own file: the scene's document must not replace them.
+void take_colors(const detail::MeshCache::Entry& entry, Scene& scene) {
+  SceneObject& object = scene.objects.back();
+  const Vec3 before = object.albedo;
+  detail::take_material_colors(entry, object);
+  if (object.face_albedo.of_face.empty() && object.albedo == before) return;
+  nlohmann::json document = nlohmann::json::parse(scene.document);
+  document["objects"][0].erase("albedo");
+  scene.document = document.dump();
+}
+
 LoadedScene load_bare_mesh(const std::filesystem::path& path) {
   detail::MeshCache meshes;
   const detail::MeshCache::Entry& entry = meshes.get(path);
@@ -70,7 +81,9 @@ LoadedScene load_bare_mesh(const std::filesystem::path& path) {
     throw MeshError(path.string() + ": " + e.what());
   }
   LoadedScene loaded{.scene = detail::scene_around(mesh, path.string()), .warnings = {}};
-  const std::string summary = detail::summary_of(entry.triangulation, mesh.report());
+  take_colors(entry, loaded.scene);
+  detail::take_normals(entry, {}, loaded.scene.objects.back());
+  const std::string summary = detail::summary_of(entry, mesh.report());
   if (!summary.empty()) loaded.warnings.push_back(path.string() + ": " + summary);
   return loaded;
 }

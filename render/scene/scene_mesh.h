@@ -7,6 +7,7 @@
 
 #include "penumbra/mesh/io/polygon_soup.h"
 #include "penumbra/mesh/triangle_mesh.h"
+#include "penumbra/render/scene/scene.h"
 #include "render/scene/transform.h"
 
 namespace penumbra::detail {
@@ -16,6 +17,12 @@ class MeshCache {
   struct Entry {
     std::vector<Vec3> positions;
     Triangulation triangulation;
+    /// As in PolygonSoup.
+    std::vector<Material> materials;
+    std::vector<std::uint32_t> polygon_material;
+    std::vector<Vec3> normals;
+    std::vector<std::uint32_t> corner_normals;
+    std::vector<std::string> ignored;
   };
   /// Reads the file the first time it is asked for. Throws MeshError.
   const Entry& get(const std::filesystem::path& path);
@@ -28,7 +35,16 @@ class MeshCache {
 /// MeshError where nothing is left of it.
 TriangleMesh place_mesh(const MeshCache::Entry& entry, const Transform& transform);
 
-/// What reading and building did to a mesh, in one line; empty where it was taken as it is.
-std::string summary_of(const Triangulation& triangulation, const BuildReport& report);
+/// Gives the object the colors of its materials: one albedo, or one for each face where they differ. Faces whose
+/// material has no color, or that have none, keep the object's albedo. The object's mesh is one of the entry's.
+void take_material_colors(const MeshCache::Entry& entry, SceneObject& object);
+
+/// Gives the object the normals of its file's corners, in the world. Corners that have none get that of the face. The
+/// object's mesh is the entry's under this transform.
+void take_normals(const MeshCache::Entry& entry, const Transform& transform, SceneObject& object);
+
+/// What reading and building did to a mesh, and what of its file is not used, in one line; empty where it was taken
+/// as it is.
+std::string summary_of(const MeshCache::Entry& entry, const BuildReport& report);
 
 }  // namespace penumbra::detail

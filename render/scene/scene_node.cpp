@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "penumbra/mesh/error.h"
+#include "render/scene/scene_limits.h"
 
 namespace penumbra::detail {
 
@@ -49,6 +50,8 @@ double SceneNode::number() const {
   if (!value_.is_number()) fail(std::string("must be a number, not ") + value_.type_name());
   const double number = value_.get<double>();
   if (!std::isfinite(number)) fail("must be a finite number");
+  if (std::abs(number) > kMostNumber)
+    fail("is " + to_text(number) + ", beyond " + to_text(kMostNumber) + "; use another unit of length");
   return number;
 }
 

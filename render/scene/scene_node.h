@@ -22,7 +22,7 @@ struct SceneNotes {
 };
 
 /// Refers to `value` and `notes`, which must outlive it. Every getter throws SceneError for another type than
-/// asked for, numbers() also for values that are not finite.
+/// asked for, number() and what is made of it also for values that are not finite or beyond kMostNumber.
 class SceneNode {
  public:
   SceneNode(const nlohmann::json& value, nlohmann::json::json_pointer path, SceneNotes& notes)

@@ -3,6 +3,12 @@
 // RGB = albedo/π · radiance · F · V/V_h for a diffuse receiver, summed over lights, with F the irradiance
 // factor and V_h the area fraction of the part of the light above the receiver's tangent plane
 // (light/light_integrals.h), and V the visibility. Radiance leaves a light's front side only. V_h = 0 gives 0.
+//
+// Smooth shading: where an object has normals at its corners, F is taken for the normal between them instead. V and V_h
+// are those of the flat face, so a face that is turned away from the light is dark although its smooth normal is not. So
+// that no dark seam shows there, F is multiplied by s(min(1, F_flat / (F cos))), cos between both normals and
+// s(x) = x + x² - x³, which falls to 0 with F_flat, and rises level to 1, which it is where the light lies along the
+// smooth normal (Chiang, Li and Burley, "Taming the Shadow Terminator", 2019).
 #pragma once
 
 #include <cstdint>

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "mesh/topology/cavities.h"
 #include "volumes/checks/surface_queries.h"
 #include "volumes/predicates/predicate_tiers.h"
 
@@ -34,16 +35,24 @@ class Repairer {
   RepairResult run() {
     result_.degenerate = mesh_.report().degenerate;
     result_.welded_vertices = mesh_.report().welded_vertices;
+    const std::span<const Component> components = mesh_.components();
+    const std::vector<bool> is_cavity =
+        detail::find_cavities(components, mesh_.positions(), mesh_.triangles());
     std::vector<std::uint32_t> rest;
-    for (const Component& component : mesh_.components()) {
-      if (component.closed)
-        result_.components.push_back(settle_closed(component));
-      else
-        for (const FaceId f : component.faces) rest.push_back(source(f));
+    for (std::size_t i = 0; i < components.size(); ++i) {
+      std::vector<std::uint32_t> faces = sources_of(components[i]);
+      if (!components[i].closed)
+        rest.insert(rest.end(), faces.begin(), faces.end());
+      else if (!drop_if_repeated(faces))
+        settle_closed(std::move(faces), components[i].signed_volume < 0.0 && !is_cavity[i]);
     }
     std::sort(rest.begin(), rest.end());
     for (std::vector<std::uint32_t>& group : collected(rest))
-      result_.components.push_back(settle_open(std::move(group)));
+      if (!drop_if_repeated(group)) result_.components.push_back(settle_open(std::move(group)));
+    for (ComponentRepair& repair : result_.components) {
+      std::sort(repair.faces.begin(), repair.faces.end());
+      std::sort(repair.dropped.begin(), repair.dropped.end());
+    }
     std::sort(result_.components.begin(), result_.components.end(),
               [](const auto& a, const auto& b) { return a.faces.front() < b.faces.front(); });
     emit();
@@ -52,6 +61,18 @@ class Repairer {
 
  private:
   std::uint32_t source(FaceId f) const { return mesh_.source_triangles()[index(f)]; }
+
+  std::vector<std::uint32_t> sources_of(const Component& component) const {
+    std::vector<std::uint32_t> faces;
+    for (const FaceId f : component.faces) faces.push_back(source(f));
+    return faces;
+  }
+
+  IndexedTriangle sorted_corners(std::uint32_t f) const {
+    IndexedTriangle t = input_[f];
+    std::sort(t.begin(), t.end());
+    return t;
+  }
 
   /// The input over welded positions. The built mesh cannot serve: it has copies of vertices along cuts.
   void weld(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles) {
@@ -129,17 +150,35 @@ class Repairer {
     return {std::move(positions), std::move(triangles)};
   }
 
-  ComponentRepair settle_closed(const Component& component) const {
+  void settle_closed(std::vector<std::uint32_t> faces, bool is_inside_out) {
     ComponentRepair repair;
-    for (const FaceId f : component.faces) repair.faces.push_back(source(f));
+    repair.faces = std::move(faces);
     count_intersections(repair.faces, repair);
     if (repair.self_intersections > 0) {
       repair.verdict = RepairVerdict::kLeft;
-    } else if (component.signed_volume < 0.0) {
-      repair.verdict = RepairVerdict::kMended;
-      repair.flipped = repair.faces;
+    } else {
+      if (is_inside_out) {
+        repair.verdict = RepairVerdict::kMended;
+        repair.flipped = repair.faces;
+      }
+      for (const std::uint32_t f : repair.faces)
+        closed_at_.try_emplace(sorted_corners(f), result_.components.size());
     }
-    return repair;
+    result_.components.push_back(std::move(repair));
+  }
+
+  /// Drops the faces where each repeats one of a closed component that is not left as it is; they count as that
+  /// component's.
+  bool drop_if_repeated(const std::vector<std::uint32_t>& faces) {
+    const auto repeats = [&](std::uint32_t f) { return closed_at_.contains(sorted_corners(f)); };
+    if (!std::all_of(faces.begin(), faces.end(), repeats)) return false;
+    for (const std::uint32_t f : faces) {
+      ComponentRepair& repair = result_.components[closed_at_.at(sorted_corners(f))];
+      repair.verdict = RepairVerdict::kMended;
+      repair.faces.push_back(f);
+      repair.dropped.push_back(f);
+    }
+    return true;
   }
 
   ComponentRepair settle_open(std::vector<std::uint32_t> faces) const {
@@ -162,11 +201,8 @@ class Repairer {
 
   void drop_repeated(ComponentRepair& repair, std::vector<std::uint32_t>& kept) const {
     std::set<IndexedTriangle> seen;
-    for (const std::uint32_t f : repair.faces) {
-      IndexedTriangle key = input_[f];
-      std::sort(key.begin(), key.end());
-      (seen.insert(key).second ? kept : repair.dropped).push_back(f);
-    }
+    for (const std::uint32_t f : repair.faces)
+      (seen.insert(sorted_corners(f)).second ? kept : repair.dropped).push_back(f);
   }
 
   void count_edges(const std::vector<std::uint32_t>& kept, ComponentRepair& repair) const {
@@ -235,6 +271,8 @@ class Repairer {
   RepairOptions options_;
   TriangleMesh mesh_;
   std::vector<IndexedTriangle> input_;  ///< over welded positions
+  /// For the sorted corners of each face of a closed component that is not left: its number in the result.
+  std::map<IndexedTriangle, std::size_t> closed_at_;
   RepairResult result_;
 };
 

@@ -1,7 +1,7 @@
 // Mends a mesh before its shadow is computed, component by component, and says what was done.
 //
 // In: positions and triangles as they come. Out: positions and triangles, and a report. Each component is
-//  - kept as it is, if it is closed, oriented, outward and free of self-intersections;
+//  - kept as it is, if it is closed, oriented, outward (inward round a cavity) and free of self-intersections;
 //  - mended, if it becomes so when faces that repeat others are dropped, seams are stitched, and faces are
 //    turned alike (by CGAL's orient_polygon_soup) and outward;
 //  - left as it is, if it is open, not manifold, not orientable or self-intersecting. Its shadow is right all
@@ -28,7 +28,7 @@ struct ComponentRepair {
   /// All of the component's, dropped ones too.
   std::vector<std::uint32_t> faces;
 
-  /// Mended: faces with the same three positions as an earlier one, which were dropped.
+  /// Mended: faces with the same three positions as another one, whichever way they run, which were dropped.
   std::vector<std::uint32_t> dropped;
   /// Mended: faces that were turned round.
   std::vector<std::uint32_t> flipped;
@@ -64,8 +64,8 @@ struct RepairOptions {
   std::size_t most_intersections = 1000;
 };
 
-/// Components are those of the built mesh where they are closed. The faces of open ones are collected over
-/// shared edges, whichever way they run along them. Throws MeshError as TriangleMesh::build does. Expected
+/// Components are those of the built mesh where they are closed. One all of whose faces repeat faces of others is dropped.
+/// The faces of open ones are collected over shared edges, whichever way they run along them. Throws MeshError as TriangleMesh::build does. Expected
 /// cost O(n log n) for n triangles, in exact arithmetic where needed.
 RepairResult repair(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles,
                     const RepairOptions& options = {});

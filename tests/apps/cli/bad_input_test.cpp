@@ -152,6 +152,13 @@ const BadScene kBadScenes[] = {
     {"CastsIsNumber", scene_text("t.off", R"(,"casts":1)"), "/objects/0/casts"},
     {"TransformOverflows", scene_text("t.off", R"(,"scale":1e308,"translation":[1.7e308,1.7e308,0])"),
      "/objects/0"},
+    {"HugeScale", scene_text("t.off", R"(,"scale":1e200)"), "/objects/0/scale: is 1e+200, beyond 1e+100"},
+    {"FarObject", scene_text("t.off", R"(},{"mesh":"t.off","casts":false,"translation":[0,1e20,0])"),
+     "/objects/1: the object is farther"},
+    {"FarCamera",
+     R"({"version":1,"lights":[)" + kLight +
+         R"(],"camera":{"eye":[1e20,3,5],"target":[0,0,0]},"objects":[{"mesh":"t.off"}]})",
+     "/camera/eye: the camera is farther"},
 };
 
 class BadSceneTest : public ProgramTest, public testing::WithParamInterface<BadScene> {};

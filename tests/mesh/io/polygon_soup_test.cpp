@@ -106,8 +106,10 @@ TEST(ReadObj, ErrorsNameTheLine) {
 }
 
 TEST(ReadMesh, CoordinatesMustBeFinite) {
-  for (const char* bad : {"nan", "inf", "-inf", "1e999", "-1e99999999999999999999"}) {
-    const std::string message = error_in(std::string("v 0 0 0\nv 1 ") + bad + " 0\n", "a.obj");
+  for (const char* bad :
+       {"nan", "inf", "-inf", "1e999", "-1e99999999999999999999", "-1.#IND", "1.#QNAN0", "1.#INF00"}) {
+    const std::string message =
+        error_in(std::string("v 0 0 0\nv 1 ") + bad + " 0\nv 0 1 0\nf 1 2 3\n", "a.obj");
     EXPECT_NE(message.find("line 2: vertex 1 has a coordinate that is not finite"), std::string::npos)
         << message;
   }
@@ -134,6 +136,8 @@ TEST(ReadOff, HeadersCommentsAndColors) {
   EXPECT_EQ(parse("OFF\n" + body, "a.off").polygon_count(), 1u);
   EXPECT_EQ(parse(body, "a.off").polygon_count(), 1u) << "the header word may be missing";
   EXPECT_EQ(parse("# first\nOFF 3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off").polygon_count(), 1u);
+  EXPECT_EQ(parse("OFF3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off").polygon_count(), 1u);
+  EXPECT_EQ(parse("COFF3 1 3\n0 0 0 1 1 1\n1 0 0 1 1 1\n0 1 0 1 1 1\n3 0 1 2\n", "none").polygon_count(), 1u);
   EXPECT_EQ(parse("OFF\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off").polygon_count(), 1u);
   EXPECT_EQ(
       parse("COFF\n3 1 3\n0 0 0 255 0 0 255\n1 0 0 0 0 0 0\n0 1 0 1 1 1 1\n3 0 1 2 0.5 0.5 0.5\n", "a.off")
@@ -212,8 +216,8 @@ TEST(ReadPly, FacesMayComeFirstAndHaveAnySize) {
   EXPECT_EQ(triangulation.triangles.size(), 4u);
   EXPECT_EQ(triangulation.triangles[2], (IndexedTriangle{0, 3, 4}));
   EXPECT_EQ(triangulation.source_polygon, (std::vector<std::uint32_t>{0, 0, 0, 2}));
-  EXPECT_EQ(triangulation.fanned_polygons, 1u);
-  EXPECT_EQ(triangulation.skipped_polygons, 1u);
+  EXPECT_EQ(triangulation.report.divided, 1u);
+  EXPECT_EQ(triangulation.report.skipped, 1u);
 }
 
 TEST(ReadPly, Errors) {

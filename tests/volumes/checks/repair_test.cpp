@@ -98,6 +98,39 @@ TEST(Repair, DropsRepeatedFacesAndStitches) {
   EXPECT_TRUE(is_closed(r));
 }
 
+TEST(Repair, DropsComponentsThatRepeatOthers) {
+  for (const bool inside_out : {false, true}) {
+    Soup soup(make_box({0, 0, 0}, Vec3(1)));
+    soup.add(Soup(make_box({0, 0, 0}, Vec3(1))));
+    for (std::size_t f = 12; f < 24; ++f)
+      if (inside_out) std::swap(soup.triangles[f][0], soup.triangles[f][1]);
+    const RepairResult r = repaired(soup);
+    EXPECT_EQ(only(r).verdict, RepairVerdict::kMended);
+    EXPECT_EQ(r.triangles.size(), 12u);
+    EXPECT_TRUE(only(r).flipped.empty());
+    EXPECT_TRUE(is_closed(r));
+    EXPECT_EQ(TriangleMesh::build(r.positions, r.triangles).components()[0].signed_volume, 8.0);
+  }
+}
+
+TEST(Repair, KeepsTheFacesThatTwoSolidsShare) {
+  Soup soup(make_box({0, 0, 0}, Vec3(1)));
+  soup.add(Soup(make_box({2, 0, 0}, Vec3(1))));
+  const RepairResult r = repaired(soup);
+  ASSERT_EQ(r.components.size(), 2u);
+  for (const ComponentRepair& c : r.components) EXPECT_EQ(c.verdict, RepairVerdict::kAsIs);
+}
+
+TEST(Repair, KeepsCavities) {
+  Soup soup(make_box({0, 0, 0}, Vec3(2)));
+  Soup cavity(make_box({0, 0, 0}, Vec3(1)));
+  for (IndexedTriangle& t : cavity.triangles) std::swap(t[0], t[1]);
+  soup.add(cavity);
+  const RepairResult r = repaired(soup);
+  ASSERT_EQ(r.components.size(), 2u);
+  for (const ComponentRepair& c : r.components) EXPECT_EQ(c.verdict, RepairVerdict::kAsIs);
+}
+
 TEST(Repair, LeavesOpenOnesAndSaysSo) {
   Soup soup(make_box({0, 0, 0}, Vec3(1)));
   soup.triangles.pop_back();

@@ -1,13 +1,13 @@
-#include "mesh/manifold_pieces.h"
+#include "mesh/topology/manifold_pieces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numeric>
 #include <string>
 #include <tuple>
 
-#include "mesh/first_index.h"
+#include "mesh/topology/face_pairs.h"
+#include "mesh/topology/first_index.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::detail {
@@ -16,10 +16,6 @@ namespace {
 constexpr std::uint32_t kUnset = std::numeric_limits<std::uint32_t>::max();
 /// OpenMesh numbers half-edges with an int; six for each face is the most there can be.
 constexpr std::size_t kMostFaces = std::numeric_limits<std::int32_t>::max() / 6;
-
-std::uint32_t next_in_face(std::uint32_t half_edge) {
-  return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
-}
 
 void check_input(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles) {
   if (triangles.size() > kMostFaces || positions.size() >= kUnset) {
@@ -103,53 +99,11 @@ void keep_faces(std::span<const Vec3> positions, std::span<const IndexedTriangle
   }
 }
 
-/// Half-edges grouped by their undirected edge: group i is half_edges[start[i] .. start[i+1]).
-struct EdgeGroups {
-  std::vector<std::uint32_t> half_edges, start;
-};
-
-/// Counting sort by the lower vertex, then each short bucket by the higher one.
-EdgeGroups group_half_edges(const std::vector<IndexedTriangle>& triangles, std::size_t vertex_count) {
-  struct Entry {
-    std::uint32_t high, half_edge;
-  };
-  std::vector<std::uint32_t> bucket(vertex_count + 1, 0);
-  std::vector<Entry> entries(3 * triangles.size());
-  const auto ends = [&](std::uint32_t h) {
-    return std::minmax(triangles[h / 3][h % 3], triangles[h / 3][next_in_face(h) % 3]);
-  };
-  for (std::uint32_t h = 0; h < entries.size(); ++h) {
-    ++bucket[ends(h).first + 1];
-  }
-  std::partial_sum(bucket.begin(), bucket.end(), bucket.begin());
-  std::vector<std::uint32_t> fill(bucket.begin(), bucket.end() - 1);
-  for (std::uint32_t h = 0; h < entries.size(); ++h) {
-    entries[fill[ends(h).first]++] = {ends(h).second, h};
-  }
-  EdgeGroups groups;
-  groups.half_edges.reserve(entries.size());
-  groups.start.reserve(entries.size() / 2 + 1);
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    const auto begin = entries.begin() + bucket[v], end = entries.begin() + bucket[v + 1];
-    std::sort(begin, end, [](const Entry& a, const Entry& b) {
-      return std::tie(a.high, a.half_edge) < std::tie(b.high, b.half_edge);
-    });
-    for (auto it = begin; it != end; ++it) {
-      if (it == begin || it->high != (it - 1)->high) {
-        groups.start.push_back(static_cast<std::uint32_t>(groups.half_edges.size()));
-      }
-      groups.half_edges.push_back(it->half_edge);
-    }
-  }
-  groups.start.push_back(static_cast<std::uint32_t>(groups.half_edges.size()));
-  return groups;
-}
-
-/// Rule 1. Returns the groups that were cut although they have more than one face.
+/// Rule 1. Returns the other groups of more than one face.
 std::vector<std::uint32_t> connect_faces(const EdgeGroups& groups, ManifoldPieces& pieces) {
   pieces.opposite.assign(3 * pieces.triangles.size(), kNoHalfEdge);
   const auto from = [&](std::uint32_t h) { return pieces.triangles[h / 3][h % 3]; };
-  std::vector<std::uint32_t> cut;
+  std::vector<std::uint32_t> crowded;
   for (std::uint32_t g = 0; g + 1 < groups.start.size(); ++g) {
     const std::uint32_t size = groups.start[g + 1] - groups.start[g];
     const std::uint32_t* half_edges = groups.half_edges.data() + groups.start[g];
@@ -158,39 +112,13 @@ std::vector<std::uint32_t> connect_faces(const EdgeGroups& groups, ManifoldPiece
       pieces.opposite[half_edges[1]] = half_edges[0];
     } else if (size > 1) {
       ++(size == 2 ? pieces.report.misoriented_edges : pieces.report.non_manifold_edges);
-      cut.push_back(g);
+      crowded.push_back(g);
     }
   }
-  return cut;
+  return crowded;
 }
 
-/// For each corner (numbered like the half-edge that leaves it) the lowest corner of its fan.
-std::vector<std::uint32_t> find_fans(const std::vector<std::uint32_t>& opposite) {
-  std::vector<std::uint32_t> parent(opposite.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t corner) {
-    while (parent[corner] != corner) {
-      corner = parent[corner] = parent[parent[corner]];
-    }
-    return corner;
-  };
-  const auto unite = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax({root(a), root(b)});
-    parent[high] = low;
-  };
-  for (std::uint32_t h = 0; h < opposite.size(); ++h) {
-    if (opposite[h] != kNoHalfEdge && h < opposite[h]) {
-      unite(h, next_in_face(opposite[h]));
-      unite(next_in_face(h), opposite[h]);
-    }
-  }
-  for (std::uint32_t corner = 0; corner < parent.size(); ++corner) {
-    parent[corner] = root(corner);
-  }
-  return parent;
-}
-
-/// Rule 2. The first fan of each vertex keeps the vertices' order; further copies follow in the order of the
+/// Rule 3. The first fan of each vertex keeps the vertices' order; further copies follow in the order of the
 /// faces.
 void copy_vertices(std::span<const Vec3> positions, const std::vector<std::uint32_t>& fans,
                    ManifoldPieces& pieces) {
@@ -230,16 +158,16 @@ void copy_vertices(std::span<const Vec3> positions, const std::vector<std::uint3
   }
 }
 
-/// Rule 3.
-void stitch(const EdgeGroups& groups, const std::vector<std::uint32_t>& cut, ManifoldPieces& pieces) {
+/// Rule 4.
+void stitch(const EdgeGroups& groups, const std::vector<std::uint32_t>& crowded, ManifoldPieces& pieces) {
   struct Side {
     std::uint32_t low, high, half_edge;
   };
   std::vector<Side> sides;
-  for (const std::uint32_t g : cut) {
+  for (const std::uint32_t g : crowded) {
     sides.clear();
-    for (std::uint32_t i = groups.start[g]; i < groups.start[g + 1]; ++i) {
-      const std::uint32_t h = groups.half_edges[i];
+    for (const std::uint32_t h : groups[g]) {
+      if (pieces.opposite[h] != kNoHalfEdge) continue;
       const auto [low, high] =
           std::minmax(pieces.triangles[h / 3][h % 3], pieces.triangles[h / 3][next_in_face(h) % 3]);
       sides.push_back({low, high, h});
@@ -253,6 +181,9 @@ void stitch(const EdgeGroups& groups, const std::vector<std::uint32_t>& cut, Man
         pieces.opposite[sides[i - 1].half_edge] = sides[i].half_edge;
       }
     }
+    const bool joined =
+        std::ranges::none_of(groups[g], [&](std::uint32_t h) { return pieces.opposite[h] == kNoHalfEdge; });
+    pieces.report.joined_edges += joined && groups[g].size() > 2;
   }
 }
 
@@ -268,9 +199,10 @@ ManifoldPieces cut_to_manifold(std::span<const Vec3> positions, std::span<const 
   }
   keep_faces(positions, triangles, place, weld, pieces);
   const EdgeGroups groups = group_half_edges(pieces.triangles, positions.size());
-  const std::vector<std::uint32_t> cut = connect_faces(groups, pieces);
+  const std::vector<std::uint32_t> crowded = connect_faces(groups, pieces);
+  pair_faces(positions, pieces.triangles, groups, crowded, pieces.opposite);
   copy_vertices(positions, find_fans(pieces.opposite), pieces);
-  stitch(groups, cut, pieces);
+  stitch(groups, crowded, pieces);
   return pieces;
 }
 
