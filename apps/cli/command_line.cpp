@@ -5,6 +5,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/common/failures.h"
+#include "apps/common/interrupts.h"
 #include "apps/common/messages.h"
 #include "penumbra/render/renderer.h"
 
@@ -52,6 +53,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  clean_up_when_interrupted();
   register_drawing_methods();
   CLI::App app(kDescription, "penumbra");
   app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);

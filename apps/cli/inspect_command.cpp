@@ -27,9 +27,14 @@ struct Arguments {
   bool json = false;
 };
 
-RepairResult repair_file(const Arguments& arguments) {
+void check(const Arguments& arguments) {
+  if (arguments.repair.empty()) return;
   require_extension("--repair", arguments.repair, mesh_extensions(), false);
   require_writable(arguments.repair);
+  require_apart({{"--repair", arguments.repair}}, {arguments.mesh});
+}
+
+RepairResult repair_file(const Arguments& arguments) {
   const PolygonSoup soup = read_polygon_soup(arguments.mesh);
   RepairResult result = repair(soup.positions, triangulate(soup).triangles);
   write_mesh(arguments.repair, TriangleMesh::build(result.positions, result.triangles));
@@ -47,6 +52,7 @@ std::string json_of(const MeshFindings& findings, const std::optional<RepairResu
 }
 
 void run(const Arguments& arguments) {
+  check(arguments);
   const MeshFindings findings = inspect(load_mesh(arguments.mesh));
   std::optional<RepairResult> repaired;
   if (!arguments.repair.empty()) repaired = repair_file(arguments);

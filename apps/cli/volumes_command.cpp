@@ -53,20 +53,39 @@ struct Volumes {
   bool good = true;
 };
 
+/// "u.ply" → "u.NAME.ply"; as it is where the scene has one light or one was chosen.
+std::filesystem::path file_of(const std::filesystem::path& path, const std::string& light) {
+  if (light.empty() || path.empty()) return path;
+  std::filesystem::path named = path;
+  return named.replace_filename(path.stem().string() + "." + light + path.extension().string());
+}
+
+/// All that is written for lights of these names.
+std::vector<Output> outputs_of(const Arguments& arguments, const std::vector<std::string>& lights) {
+  std::vector<Output> outputs = {{"--report", arguments.report}};
+  for (const std::string& light : lights) {
+    outputs.push_back({"--umbra", file_of(arguments.umbra, light)});
+    outputs.push_back({"--penumbra", file_of(arguments.penumbra, light)});
+    outputs.push_back({"--sheets", file_of(arguments.sheets, light)});
+  }
+  return outputs;
+}
+
+void require_good(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs) {
+  for (const Output& output : outputs) require_writable(output.path);
+  require_apart(outputs, inputs);
+}
+
 void check(const Arguments& arguments) {
   if (arguments.only_report() && arguments.report.empty() && !arguments.check)
     throw UsageError("nothing to do; give --umbra, --penumbra, --sheets, --report or --check");
-  const std::pair<const char*, const std::filesystem::path*> meshes[] = {
-      {"--umbra", &arguments.umbra}, {"--penumbra", &arguments.penumbra}, {"--sheets", &arguments.sheets}};
-  for (const auto& [option, path] : meshes) {
-    if (path->empty()) continue;
-    require_extension(option, *path, shadow_mesh_extensions(), false);
-    require_writable(*path);
-    for (const auto& [other, other_path] : meshes)
-      if (path != other_path && *path == *other_path)
-        throw UsageError(std::string(option) + " and " + other + " name the same file; choose two");
-  }
-  require_writable(arguments.report);
+  const std::vector<Output> outputs = outputs_of(arguments, {""});
+  for (const auto& [option, path] : outputs)
+    if (!path.empty() && option != "--report")
+      require_extension(option, path, shadow_mesh_extensions(), false);
+  require_good(outputs, {arguments.scene.path});
+  if (arguments.merge && arguments.report.empty())
+    say_ignored("--merge", "files hold all casters anyway, and there is no --report");
 }
 
 void add_object(const Arguments& arguments, const SceneObject& object, std::size_t number,
@@ -129,11 +148,10 @@ void say(const nlohmann::json& objects) {
     }
 }
 
-/// "u.ply" → "u.NAME.ply"; as it is where the scene has one light or one was chosen.
-std::filesystem::path file_of(const std::filesystem::path& path, const std::string& light) {
-  if (light.empty() || path.empty()) return path;
-  std::filesystem::path named = path;
-  return named.replace_filename(path.stem().string() + "." + light + path.extension().string());
+/// Of a volume of casters.
+std::string why_empty(const std::string& volume) {
+  if (volume == "umbra") return "no convex or star-shaped part of a caster hides the whole light alone";
+  return "no caster has a face in front of the light";
 }
 
 /// Writes one light's volumes; returns its report. `light`: its name where several lights are written.
@@ -143,7 +161,13 @@ nlohmann::json write(const Arguments& arguments, const Volumes& volumes, const s
   const auto write_one = [&](const char* name, bool wanted, const std::filesystem::path& path,
                              const std::vector<ShadowMesh>& parts) {
     const ShadowMesh whole = merge(parts);
-    if (!path.empty()) write_shadow_mesh(file_of(path, light), whole);
+    if (!path.empty()) {
+      const std::filesystem::path file = file_of(path, light);
+      write_shadow_mesh(file, whole);
+      say_written(arguments.common.verbose, file);
+      if (whole.triangles.empty() && !parts.empty())
+        complain("warning: " + file.string() + " is empty: " + why_empty(name));
+    }
     if (arguments.merge && wanted && !parts.empty())
       report["scene"][name] = shadow_report(whole, volumes.caster_faces);
   };
@@ -171,10 +195,13 @@ void run(const Arguments& arguments) {
         scene.lights[k].shape,
         "penumbra volumes" +
             (lights.size() > 1 ? ", of light " + scene.lights[k].name + ", (see --light)" : "")));
+  std::vector<std::string> names;
+  for (const std::size_t k : lights) names.push_back(lights.size() > 1 ? scene.lights[k].name : "");
+  require_good(outputs_of(arguments, names), files_of(arguments.scene, scene));
   nlohmann::json reports = nlohmann::json::array();
   bool good = true;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const std::string name = lights.size() > 1 ? scene.lights[lights[i]].name : "";
+    const std::string& name = names[i];
     const Volumes volumes = build_volumes(arguments, scene, circular[i]);
     if (arguments.common.verbose) say(volumes.objects);
     reports.push_back(write(arguments, volumes, name));
@@ -182,8 +209,10 @@ void run(const Arguments& arguments) {
       print((name.empty() ? "" : "light " + name + "\n") + volumes.findings);
     good = good && volumes.good;
   }
-  if (!arguments.report.empty())
+  if (!arguments.report.empty()) {
     write_json(arguments.report, lights.size() > 1 ? nlohmann::json{{"lights", reports}} : reports.front());
+    say_written(arguments.common.verbose, arguments.report);
+  }
   if (!good) throw SystemError("the volumes did not pass --check; please report the scene with this output");
 }
 

@@ -19,6 +19,10 @@ void complain(const std::string& message) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+void say_ignored(const std::string& option, const std::string& why) {
+  complain("warning: " + option + " has no effect: " + why);
+}
+
 ProgressLine::ProgressLine(std::string label)
     : label_(std::move(label)),
       watched_(isatty(STDERR_FILENO) != 0),

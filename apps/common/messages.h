@@ -11,6 +11,9 @@ namespace penumbra::apps {
 /// "penumbra: message", as one line whatever the message holds.
 void complain(const std::string& message);
 
+/// A warning that what was given has no effect, and why.
+void say_ignored(const std::string& option, const std::string& why);
+
 /// A percentage that overwrites itself, on a terminal only. Goes away when destroyed.
 class ProgressLine {
  public:

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "apps/common/messages.h"
+#include "apps/common/outputs.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/io/polygon_soup.h"
 
@@ -75,6 +76,14 @@ Scene load(const SceneInput& input) {
   LoadedScene loaded = load_scene(input.path, {.strict = input.strict});
   for (const std::string& warning : loaded.warnings) complain("warning: " + warning);
   return std::move(loaded.scene);
+}
+
+std::vector<std::filesystem::path> files_of(const SceneInput& input, const Scene& scene) {
+  std::vector<std::filesystem::path> files = {input.path};
+  const std::filesystem::path folder = extension_of(input.path) == ".json" ? input.path.parent_path() : "";
+  for (const SceneObject& object : scene.objects)
+    if (!object.name.empty()) files.push_back(folder / object.name);
+  return files;
 }
 
 void add_exposure_option(CLI::App& command, double& stops, const std::string& help) {
