@@ -7,9 +7,11 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/compare_picture.h"
 #include "apps/cli/comparison.h"
+#include "apps/cli/made_by.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
+#include "apps/common/parse_errors.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {
@@ -82,11 +84,26 @@ nlohmann::json to_json(const ErrorFigures& figures) {
           {"max_absolute", figures.max_absolute}};
 }
 
-nlohmann::json to_json(const Arguments& arguments, const Comparison& comparison) {
+/// What made A, and B where it is an image.
+struct Makers {
+  Metadata image;
+  std::optional<Metadata> reference;
+};
+
+/// What the table begins with.
+std::string heading(const Arguments& arguments, const Makers& makers) {
+  std::string text = "A " + arguments.image.string() + ": " + made_by(makers.image) + "\n";
+  text += "B " + arguments.scene.path.string();
+  return text + (makers.reference ? ": " + made_by(*makers.reference) : "") + "\n";
+}
+
+nlohmann::json to_json(const Arguments& arguments, const Makers& makers, const Comparison& comparison) {
   nlohmann::json report = {
       {"image", arguments.image.string()},    {"reference", arguments.scene.path.string()},
       {"all", to_json(comparison.all)},       {"penumbra", to_json(comparison.in_penumbra)},
       {"skipped_pixels", comparison.skipped}, {"difference_scale", difference_scale(comparison)}};
+  report["image_made_by"] = made_by_json(makers.image);
+  if (makers.reference) report["reference_made_by"] = made_by_json(*makers.reference);
   if (arguments.judged.object) report["object"] = *arguments.judged.object;
   if (!arguments.judged.light.empty()) report["light"] = arguments.judged.light;
   if (comparison.samples == 0) return report;
@@ -181,8 +198,14 @@ void run(const Arguments& arguments) {
     return JudgedImage{image, path.stem().string(), arguments.judged.channel(), comparison};
   };
   const Image image = read_exr(arguments.image);
+  Makers makers{.image = image.metadata, .reference = {}};
+  if (reference) makers.reference = reference->metadata;
+  for (const std::string& name :
+       differences(image.metadata, reference ? reference->metadata : metadata_of(*scene)))
+    complain("warning: A and B differ in " + name + "; figures may judge that");
   const Comparison comparison = compare(image);
-  std::string text = arguments.json ? to_text(to_json(arguments, comparison)) : to_table(comparison);
+  std::string text = arguments.json ? to_text(to_json(arguments, makers, comparison))
+                                    : heading(arguments, makers) + to_table(comparison);
   if (!arguments.json && arguments.wants_pictures()) text += scale_line(difference_scale(comparison));
   print(text);
   std::vector<JudgedImage> images{judged(arguments.image, image, comparison)};
@@ -214,7 +237,9 @@ void add_compare_command(CLI::App& app) {
       .add_option("--judge", arguments->judge,
                   "What traces the references: rays (Embree), or double (shares nothing with the methods; "
                   "at some pixels, 1,024 rays each unless --samples says otherwise)")
-      ->check(CLI::IsMember({"rays", "double"}))
+      ->check([](const std::string& word) {
+        return require_one_of({"rays", "double"}, word);
+      })
       ->capture_default_str();
   command
       .add_option("--judge-pixels", arguments->judge_pixels,

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/made_by.h"
 #include "apps/cli/probe.h"
 #include "apps/common/messages.h"
 #include "apps/common/method_options.h"
@@ -103,6 +104,7 @@ void run(const Arguments& arguments) {
   }
   for (const std::string& warning : result.warnings) complain("warning: " + warning);
   if (arguments.common.verbose) say_stages(result);
+  result.image.metadata = metadata_of(scene, arguments.scene.path.string(), result);
   for (const auto& output : arguments.images) {
     if (extension_of(output) == ".exr")
       write_exr(output, result.image);

@@ -89,7 +89,9 @@ void check(const Arguments& arguments) {
 }
 
 void add_object(const Arguments& arguments, const SceneObject& object, std::size_t number,
-                const CircularLight& light, const VolumeOptions& options, Volumes& volumes) {
+                const CircularLight& light, VolumeOptions options, const Progress& progress,
+                Volumes& volumes) {
+  options.extrude.progress = part_of(progress, 0.0, arguments.check ? 0.5 : 1.0);
   const std::size_t faces = object.mesh.triangles().size();
   ShadowVolumes made = build_shadow_volumes(object.mesh, light, options);
   nlohmann::json report = classification_report(made.classes);
@@ -102,7 +104,8 @@ void add_object(const Arguments& arguments, const SceneObject& object, std::size
   if (options.umbra) report["umbra"] = shadow_report(made.umbra, faces);
   if (arguments.check) {
     StageClock clock;
-    const VolumeFindings findings = validate(object.mesh, light, made.umbra, made.penumbra, options.extrude);
+    const VolumeFindings findings = validate(object.mesh, light, made.umbra, made.penumbra, options.extrude,
+                                             {.progress = part_of(progress, 0.5, 1.0)});
     clock.finish("check");
     made.stages.push_back(clock.stages().front());
     report["check"] = check_report(findings);
@@ -130,9 +133,9 @@ Volumes build_volumes(const Arguments& arguments, const Scene& scene, const Circ
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (!scene.objects[i].casts) continue;
     options.extrude.object = static_cast<std::uint32_t>(i);
-    options.extrude.progress =
+    const Progress part =
         part_of(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
-    add_object(arguments, scene.objects[i], i, light, options, volumes);
+    add_object(arguments, scene.objects[i], i, light, options, part, volumes);
   }
   if (volumes.objects.empty()) complain("warning: no object of the scene casts; the volumes are empty");
   return volumes;

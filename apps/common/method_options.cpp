@@ -40,7 +40,7 @@ void add_method_options(CLI::App& command, OptionValues& values) {
       try {
         values[option.name] = option.parse(text);
       } catch (const UsageError&) {
-        throw CLI::ValidationError(flag, "'" + text + "' is not allowed; give " + option.allowed());
+        throw CLI::ValidationError(flag, option.refusal(text));
       }
     };
     command.add_option_function<std::string>(flag, set, option.help + " (" + option.allowed() + ")")

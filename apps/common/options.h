@@ -41,6 +41,9 @@ struct SceneInput {
 void add_strict_option(CLI::App& command, SceneInput& input);
 /// SCENE as a positional argument, and --strict.
 void add_scene_input(CLI::App& command, SceneInput& input);
+inline constexpr const char* kStandardInput = "standard input";
+/// All of it. Throws SceneError where it is empty.
+std::string read_standard_input();
 /// Loads the scene, from standard input where the path is "-"; warnings go to standard error.
 Scene load(const SceneInput& input);
 /// The scene's file and those of its meshes.

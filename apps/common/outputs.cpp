@@ -23,7 +23,7 @@ std::string extension_of(const std::filesystem::path& path) {
 
 void require_extension(const std::string& option, const std::filesystem::path& path,
                        const std::vector<std::string_view>& known, bool stdout_allowed) {
-  if (is_stdout(path) && stdout_allowed) return;
+  if (is_standard(path) && stdout_allowed) return;
   const std::string extension = extension_of(path);
   if (std::find(known.begin(), known.end(), extension) != known.end()) return;
   std::string list;
@@ -32,7 +32,7 @@ void require_extension(const std::string& option, const std::filesystem::path& p
 }
 
 void require_writable(const std::filesystem::path& path) {
-  if (path.empty() || is_stdout(path)) return;
+  if (path.empty() || is_standard(path)) return;
   const auto fail = [&path](const std::string& reason) {
     throw SystemError(path.string() + ": cannot be written: " + reason);
   };
@@ -58,7 +58,7 @@ namespace {
 
 /// What tells files apart: links and ".." are gone. Empty for what writing does not replace.
 std::filesystem::path place_of(const std::filesystem::path& path) {
-  if (path.empty() || is_stdout(path)) return {};
+  if (path.empty() || is_standard(path)) return {};
   std::error_code error;
   const std::filesystem::path target = written_path(path);
   if (std::filesystem::is_other(target, error)) return {};
@@ -85,14 +85,14 @@ void require_apart(const std::vector<Output>& outputs, const std::vector<std::fi
 
 void say_written(bool verbose, const std::filesystem::path& path) {
   if (!verbose) return;
-  if (is_stdout(path)) return complain("wrote to standard output");
+  if (is_standard(path)) return complain("wrote to standard output");
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
   complain("wrote " + path.string() + (error ? "" : ", " + std::to_string(bytes) + " bytes"));
 }
 
 void require_one_stdout(const std::vector<std::filesystem::path>& paths) {
-  if (std::count_if(paths.begin(), paths.end(), is_stdout) > 1)
+  if (std::count_if(paths.begin(), paths.end(), is_standard) > 1)
     throw UsageError("several results would go to standard output; name files for all but one");
 }
 

@@ -9,7 +9,8 @@
 
 namespace penumbra::apps {
 
-inline bool is_stdout(const std::filesystem::path& path) {
+/// Of inputs and outputs: standard input, standard output.
+inline bool is_standard(const std::filesystem::path& path) {
   return path == "-";
 }
 

@@ -5,6 +5,7 @@
 
 #include "apps/common/interrupts.h"
 #include "mesh/io/write_file.h"
+#include "penumbra/render/image/image.h"
 #include "tests/apps/cli/program.h"
 
 namespace penumbra::test {
@@ -152,6 +153,26 @@ TEST_F(OutputsTest, WhatHasNoEffectOrIsEmptyIsSaidInOneLine) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
     EXPECT_NE(outcome.err.find(said), std::string::npos) << outcome.err;
+  }
+}
+
+TEST_F(OutputsTest, ScenesAndMeshesComeFromStandardInput) {
+  const std::string whole = write("whole.json", scene_text(mesh_));
+  EXPECT_EQ(run(drawn({"--output", path("file.exr")})).code, 0);
+  EXPECT_EQ(run({"render", "-", "--size", "16x12", "--output", path("scene.exr")}, whole).code, 0);
+  EXPECT_EQ(read_exr(file("scene.exr")).channels, read_exr(file("file.exr")).channels);
+  EXPECT_EQ(run({"render", mesh_, "--size", "16x12", "--output", path("mesh.exr")}).code, 0);
+  EXPECT_EQ(run({"render", "-", "--size", "16x12", "--output", path("in.exr")}, mesh_).code, 0);
+  EXPECT_EQ(read_exr(file("in.exr")).channels, read_exr(file("mesh.exr")).channels);
+  EXPECT_EQ(run({"inspect", "-", "--json", "--repair", path("r.off")}, mesh_).out,
+            run({"inspect", mesh_, "--json", "--repair", path("r.off")}).out);
+  EXPECT_EQ(run({"classify", "-"}, whole).out, run({"classify", whole}).out);
+  for (const auto& [command, input] :
+       {std::pair("inspect", "/dev/null"), std::pair("classify", "/dev/null")}) {
+    const Outcome outcome = run({command, "-"}, input);
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(outcome.error_lines(), 1u);
+    EXPECT_NE(outcome.err.find("standard input"), std::string::npos) << outcome.err;
   }
 }
 
