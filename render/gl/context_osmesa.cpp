@@ -38,6 +38,7 @@ const Library& library() {
     Library lib;
     for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
       if ((lib.handle = dlopen(name, RTLD_NOW | RTLD_LOCAL))) break;
+    if (!lib.handle) require_memory_for_library(dlerror());
     if (!lib.handle)
       throw SystemError(
           "cannot open libOSMesa.so.8: install the Debian package libosmesa6, or use option backend egl");
