@@ -4,6 +4,8 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cerrno>
+#include <new>
 #include <vector>
 
 #include "penumbra/mesh/error.h"
@@ -57,7 +59,9 @@ class OsMesa final : public Context {
     const std::array<int, 13> wanted{kFormat,  kRgba,        kDepthBits,    24, kStencilBits,  8,
                                      kProfile, kCoreProfile, kMajorVersion, 4,  kMinorVersion, 5,
                                      0};
+    errno = 0;
     context_ = library().create(wanted.data(), nullptr);
+    if (!context_ && errno == ENOMEM) throw std::bad_alloc();
     if (!context_)
       throw SystemError(
           "OSMesa gives no OpenGL 4.5 core context: install Mesa 22 or newer, or use option backend egl");

@@ -20,7 +20,10 @@ namespace {
 
 void throw_embree_error(void*, RTCError error, const char* text) {
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-  throw SystemError(std::string("Embree: ") + text);
+  const std::string reason = text != nullptr ? text : "unknown error";
+  const bool of_threads = reason.find("pthread_create") != std::string::npos;
+  throw SystemError("Embree: " + reason +
+                    (of_threads ? "; not enough memory for threads, or too many of them" : ""));
 }
 
 struct EdgeLengths {
