@@ -108,12 +108,6 @@ RayGeometry::RayGeometry(const TriangleMesh& mesh_, const RayPart& part, const G
   border = static_cast<float>(1.75 * (grown + std::max(kLeastGrown, 0.5 * grown)) * longest);
 }
 
-FaceCorners RayGeometry::corners(std::uint32_t mesh_face) const {
-  const IndexedTriangle& t = mesh.triangles()[mesh_face];
-  const auto p = mesh.positions();
-  return {p[t[0]] * scale, p[t[1]] * scale, p[t[2]] * scale};
-}
-
 RayGroup::RayGroup(RTCDevice device, const Scene& scene_of, const RayPartGroup& group)
     : frame(frame_of(group.bounds)), scene(rtcNewScene(device)) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -143,6 +137,10 @@ RayScene::Impl::Impl(const Scene& scene, tbb::task_arena& threads) {
     for (const bool casts : {true, false})
       for (const detail::RayPartGroup& group : detail::group_by_scale(scene, casts))
         (casts ? casters : others).push_back(std::make_unique<detail::RayGroup>(device, scene, group));
+    of_object.resize(scene.objects.size());
+    for (const auto& group : casters)
+      for (const auto& geometry : group->geometries)
+        of_object[geometry->object] = {group.get(), geometry.get()};
     try {
       for (const auto* groups : {&casters, &others})
         for (const auto& group : *groups) rtcCommitScene(group->scene);
