@@ -1,0 +1,170 @@
+#include "volumes/solids/solid_mesher.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "volumes/solids/carve.h"
+#include "volumes/solids/shadow_box.h"
+
+namespace penumbra::detail {
+namespace {
+
+constexpr int kBoxDepth = 5;          ///< the bound is halved so often to find where shadow may be
+constexpr int kBisections = 6;        ///< of a crossed edge
+constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from its ends
+
+class Mesher {
+ public:
+  explicit Mesher(const SolidMeshRequest& request)
+      : request_(request), tree_(request.casters, request.light) {}
+
+  SolidMesh run() {
+    const LitBoxes boxes(tree_, request_.light, request_.bound);
+    const Bounds box = boxes.shadow_box(kBoxDepth);
+    clock_.finish("hierarchy");
+    if (box.empty()) return finish();
+    SolidGrid grid(box, request_.spacing);
+    judge_grid(grid, boxes);
+    clock_.finish("grid");
+    report(request_.progress, 0.3);
+    if (request_.region == ShadowRegion::kPenumbra) enclose_casters(grid);
+    CrossedEdges edges(grid);
+    edges.update(0.5, 0.0);
+    bisect(edges);
+    clock_.finish("bisection");
+    report(request_.progress, 0.4);
+    GridSurface surface;
+    if (request_.region == ShadowRegion::kLevel) {
+      surface = grid_surface(edges);
+    } else {
+      const TriangleJudge judge(request_, tree_);
+      surface = carve(grid, edges, request_, judge, out_.evaluations, part_of(request_.progress, 0.4, 0.8));
+    }
+    clock_.finish("carving");
+    take(surface);
+    return finish();
+  }
+
+ private:
+  bool is_inside(float seen) const {
+    if (request_.region == ShadowRegion::kUmbra) return seen == 0.0f;
+    if (request_.region == ShadowRegion::kPenumbra) return seen < 1.0f;
+    return static_cast<double>(seen) <= request_.level;
+  }
+
+  /// In batches, so that a call can be stopped. Points on and behind the light's plane are outside.
+  void judge_points(const std::vector<Vec3>& points, std::vector<char>& inside) {
+    inside.assign(points.size(), 0);
+    const std::vector<float> seen = request_.judge(points);
+    out_.evaluations += points.size();
+    for (std::size_t i = 0; i < points.size(); ++i)
+      inside[i] = is_inside(seen[i]) && !is_behind(request_.light, points[i]) ? 1 : 0;
+  }
+
+  void judge_grid(SolidGrid& grid, const LitBoxes& boxes) {
+    std::vector<char> lit(grid.block_count());
+    tbb::parallel_for(0u, static_cast<std::uint32_t>(grid.block_count()), [&](std::uint32_t b) {
+      const GridIndex low = grid.place(b * 64), high = grid.place(b * 64 + 63);
+      Bounds box;
+      box.add(grid.point(low));
+      box.add(grid.point(high));
+      lit[b] = boxes.is_lit(box) ? 1 : 0;
+    });
+    std::vector<Vec3> points;
+    std::vector<std::uint32_t> vertices;
+    for (std::uint32_t b = 0; b < lit.size(); ++b) {
+      if (lit[b]) continue;
+      for (std::uint32_t v = b * 64; v < (b + 1) * 64; ++v) {
+        vertices.push_back(v);
+        points.push_back(grid.point(v));
+      }
+    }
+    std::vector<char> inside;
+    judge_points(points, inside);
+    for (std::size_t i = 0; i < vertices.size(); ++i) grid.set_inside(vertices[i], inside[i] != 0);
+    out_.grid_points = grid.size();
+  }
+
+  /// The tetrahedron of the grid that holds a point: its diagonal's cube is entered by the largest coordinate first.
+  static std::array<std::uint32_t, 4> tetrahedron_at(const SolidGrid& grid, const Vec3& p) {
+    const GridIndex cube = grid.cube_of(p);
+    const Vec3 from = (p - grid.point(cube)) / grid.step();
+    std::array<int, 3> axes{0, 1, 2};
+    std::sort(axes.begin(), axes.end(), [&](int a, int b) { return from[a] > from[b]; });
+    std::array<std::uint32_t, 4> corners;
+    unsigned bits = 0;
+    for (int k = 0; k < 4; ++k) {
+      corners[k] = grid.beyond(grid.vertex(cube), bits);
+      if (k < 3) bits |= 1u << axes[k];
+    }
+    return corners;
+  }
+
+  /// A surface that meets no caster encloses all of a set of faces that hang together or none of it. So one corner of each
+  /// set has to be inside for certain: in a tetrahedron whose corners all are.
+  void enclose_casters(SolidGrid& grid) const {
+    std::vector<char> enclosed(tree_.component_count(), 0);
+    const auto corners_inside = [&](const std::array<std::uint32_t, 4>& t) {
+      return std::ranges::count_if(t, [&](std::uint32_t v) { return grid.is_inside(v); });
+    };
+    for (const CasterTree::Face& face : tree_.faces())
+      if (!enclosed[face.component] && corners_inside(tetrahedron_at(grid, face.corners[0])) == 4)
+        enclosed[face.component] = 1;
+    for (const CasterTree::Face& face : tree_.faces()) {
+      if (enclosed[face.component] || is_behind(request_.light, face.corners[0])) continue;
+      for (const std::uint32_t v : tetrahedron_at(grid, face.corners[0])) grid.set_inside(v, true);
+      enclosed[face.component] = 1;
+    }
+  }
+
+  void bisect(CrossedEdges& edges) {
+    std::vector<CrossedEdge>& all = edges.all();
+    std::vector<double> low(all.size(), 0.0), high(all.size(), 1.0);
+    std::vector<Vec3> points(all.size());
+    std::vector<char> inside;
+    for (int round = 0; round < kBisections; ++round) {
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].at = 0.5 * (low[i] + high[i]);
+        points[i] = edges.position(all[i]);
+      }
+      judge_points(points, inside);
+      for (std::size_t i = 0; i < all.size(); ++i) (inside[i] ? low : high)[i] = all[i].at;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const double at = request_.region == ShadowRegion::kUmbra      ? low[i]
+                        : request_.region == ShadowRegion::kPenumbra ? high[i]
+                                                                     : 0.5 * (low[i] + high[i]);
+      all[i].at = std::clamp(at, kLeast, 1.0 - kLeast);
+    }
+  }
+
+  void take(const GridSurface& surface) {
+    out_.positions = surface.positions;
+    out_.triangles = surface.triangles;
+    out_.grid_triangles = surface.triangles.size();
+    out_.is_cap.assign(surface.triangles.size(), 0);
+    std::fill(out_.is_cap.begin() + static_cast<std::ptrdiff_t>(surface.inner_triangles), out_.is_cap.end(),
+              1);
+  }
+
+  SolidMesh finish() {
+    out_.stages = clock_.stages();
+    report(request_.progress, 1.0);
+    return std::move(out_);
+  }
+
+  const SolidMeshRequest& request_;
+  CasterTree tree_;
+  StageClock clock_;
+  SolidMesh out_;
+};
+
+}  // namespace
+
+SolidMesh mesh_shadow(const SolidMeshRequest& request) {
+  return Mesher(request).run();
+}
+
+}  // namespace penumbra::detail
