@@ -7,13 +7,16 @@
 
 #include "volumes/solids/carve.h"
 #include "volumes/solids/shadow_box.h"
+#include "volumes/solids/simplify.h"
 
 namespace penumbra::detail {
 namespace {
 
 constexpr int kBoxDepth = 5;          ///< the bound is halved so often to find where shadow may be
-constexpr int kBisections = 6;        ///< of a crossed edge
+constexpr int kBisections = 8;        ///< of a crossed edge
 constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from its ends
+/// Of the tolerance: so far may simplification move a point.
+constexpr double kSimplified = 0.4;
 
 class Mesher {
  public:
@@ -43,7 +46,8 @@ class Mesher {
       surface = carve(grid, edges, request_, judge, out_.evaluations, part_of(request_.progress, 0.4, 0.8));
     }
     clock_.finish("carving");
-    take(surface);
+    take(std::move(surface), grid.box());
+    clock_.finish("simplification");
     return finish();
   }
 
@@ -140,13 +144,28 @@ class Mesher {
     }
   }
 
-  void take(const GridSurface& surface) {
-    out_.positions = surface.positions;
-    out_.triangles = surface.triangles;
+  void take(GridSurface surface, const Bounds& box) {
     out_.grid_triangles = surface.triangles.size();
-    out_.is_cap.assign(surface.triangles.size(), 0);
-    std::fill(out_.is_cap.begin() + static_cast<std::ptrdiff_t>(surface.inner_triangles), out_.is_cap.end(),
-              1);
+    SimplifyOptions options{.tolerance = kSimplified * request_.tolerance,
+                            .box = box,
+                            .spacing = request_.spacing,
+                            .progress = part_of(request_.progress, 0.8, 1.0)};
+    options.side = request_.region == ShadowRegion::kUmbra      ? SimplifyOptions::Side::kInward
+                   : request_.region == ShadowRegion::kPenumbra ? SimplifyOptions::Side::kOutward
+                                                                : SimplifyOptions::Side::kEither;
+    IndexedSurface simple = simplify({std::move(surface.positions), std::move(surface.triangles)}, options);
+    out_.positions = std::move(simple.positions);
+    out_.triangles = std::move(simple.triangles);
+    for (const IndexedTriangle& t : out_.triangles) out_.is_cap.push_back(lies_in_a_side(t, box) ? 1 : 0);
+  }
+
+  bool lies_in_a_side(const IndexedTriangle& t, const Bounds& box) const {
+    const auto all = [&](int k, double at) {
+      return std::ranges::all_of(t, [&](std::uint32_t v) { return out_.positions[v][k] == at; });
+    };
+    for (int k = 0; k < 3; ++k)
+      if (all(k, box.low[k]) || all(k, box.high[k])) return true;
+    return false;
   }
 
   SolidMesh finish() {
