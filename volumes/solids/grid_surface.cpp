@@ -19,10 +19,10 @@ class Builder {
 
   GridSurface run() {
     for (const CrossedEdge& e : edges_.all()) out_.positions.push_back(edges_.position(e));
-    const auto blocks = static_cast<std::uint32_t>(grid_.block_count());
-    std::vector<std::vector<IndexedTriangle>> parts(blocks);
-    tbb::parallel_for(0u, blocks, [&](std::uint32_t b) {
-      for (std::uint32_t v = b * 64; v < (b + 1) * 64; ++v) add_cube(v, parts[b]);
+    const std::vector<std::uint32_t>& blocks = edges_.active_blocks();
+    std::vector<std::vector<IndexedTriangle>> parts(blocks.size());
+    tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+      for (std::uint32_t v = blocks[i] * 64; v < (blocks[i] + 1) * 64; ++v) add_cube(v, parts[i]);
     });
     for (const auto& part : parts) out_.triangles.insert(out_.triangles.end(), part.begin(), part.end());
     out_.inner_triangles = out_.triangles.size();
@@ -133,14 +133,36 @@ class Builder {
 
 }  // namespace
 
+/// Those that differ from one of the blocks above, or are not all on one side.
+void CrossedEdges::find_active_blocks() {
+  const auto blocks = static_cast<std::uint32_t>(grid_.block_count());
+  enum : char { kOutside, kInside, kMixed };
+  std::vector<char> state(blocks), active(blocks, 0);
+  tbb::parallel_for(0u, blocks, [&](std::uint32_t b) {
+    int inside = 0;
+    for (std::uint32_t v = b * 64; v < (b + 1) * 64; ++v) inside += grid_.is_inside(v) ? 1 : 0;
+    state[b] = inside == 0 ? kOutside : inside == 64 ? kInside : kMixed;
+  });
+  tbb::parallel_for(0u, blocks, [&](std::uint32_t b) {
+    active[b] = state[b] == kMixed ? 1 : 0;
+    for (unsigned bits = 1; bits < 8 && !active[b]; ++bits) {
+      const std::uint32_t other = grid_.block_beyond(b, bits);
+      active[b] = other != SolidGrid::kNone && state[other] != state[b] ? 1 : 0;
+    }
+  });
+  active_.clear();
+  for (std::uint32_t b = 0; b < blocks; ++b)
+    if (active[b]) active_.push_back(b);
+}
+
 void CrossedEdges::update(double at, double pull) {
-  std::vector<std::uint32_t> count(grid_.block_count() + 1, 0);
+  find_active_blocks();
+  std::vector<std::uint32_t> count(active_.size() + 1, 0);
   crossed_.resize(grid_.size());
   first_.resize(grid_.size());
-  const auto blocks = static_cast<std::uint32_t>(grid_.block_count());
-  tbb::parallel_for(0u, blocks, [&](std::uint32_t b) {
+  tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
     std::uint32_t sum = 0;
-    for (std::uint32_t v = b * 64; v < (b + 1) * 64; ++v) {
+    for (std::uint32_t v = active_[i] * 64; v < (active_[i] + 1) * 64; ++v) {
       std::uint8_t mask = 0;
       for (unsigned bits = 1; bits < 8; ++bits) {
         const std::uint32_t other = grid_.beyond(v, bits);
@@ -150,16 +172,16 @@ void CrossedEdges::update(double at, double pull) {
       crossed_[v] = mask;
       sum += static_cast<std::uint32_t>(std::popcount(mask));
     }
-    count[b + 1] = sum;
+    count[i + 1] = sum;
   });
-  for (std::size_t b = 1; b < count.size(); ++b) count[b] += count[b - 1];
+  for (std::size_t i = 1; i < count.size(); ++i) count[i] += count[i - 1];
   const std::vector<CrossedEdge> old = std::move(edges_);
   edges_ = std::vector<CrossedEdge>(count.back());
-  tbb::parallel_for(0u, blocks, [&](std::uint32_t b) {
-    std::uint32_t next = count[b];
-    if (count[b] == count[b + 1]) return;
-    auto known = std::ranges::lower_bound(old, b * 64, {}, &CrossedEdge::from);
-    for (std::uint32_t v = b * 64; v < (b + 1) * 64; ++v) {
+  tbb::parallel_for(std::size_t{0}, active_.size(), [&](std::size_t i) {
+    std::uint32_t next = count[i];
+    if (count[i] == count[i + 1]) return;
+    auto known = std::ranges::lower_bound(old, active_[i] * 64, {}, &CrossedEdge::from);
+    for (std::uint32_t v = active_[i] * 64; v < (active_[i] + 1) * 64; ++v) {
       first_[v] = next;
       for (unsigned bits = 1; bits < 8; ++bits) {
         if (!(crossed_[v] >> (bits - 1) & 1)) continue;

@@ -55,9 +55,14 @@ class CrossedEdges {
   }
   Vec3 position(const CrossedEdge& e) const;
   const SolidGrid& grid() const { return grid_; }
+  /// Blocks of vertices some of whose edges are crossed, or whose cubes hold crossed edges; ascending.
+  const std::vector<std::uint32_t>& active_blocks() const { return active_; }
 
  private:
+  void find_active_blocks();
+
   const SolidGrid& grid_;
+  std::vector<std::uint32_t> active_;
   std::vector<std::uint32_t> first_;   ///< one a vertex
   std::vector<std::uint8_t> crossed_;  ///< one a vertex: bit b - 1 stands for the edge of bits b
   std::vector<CrossedEdge> edges_;

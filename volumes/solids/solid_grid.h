@@ -61,6 +61,16 @@ class SolidGrid {
     }
     return vertex(at);
   }
+  /// The same of blocks.
+  std::uint32_t block_beyond(std::uint32_t block, unsigned bits) const {
+    const auto b = static_cast<std::int32_t>(block);
+    GridIndex at{b % blocks_[0], b / blocks_[0] % blocks_[1], b / blocks_[0] / blocks_[1]};
+    for (int k = 0; k < 3; ++k) {
+      at[k] += static_cast<std::int32_t>(bits >> k & 1);
+      if (at[k] >= blocks_[k]) return kNone;
+    }
+    return static_cast<std::uint32_t>((at[2] * blocks_[1] + at[1]) * blocks_[0] + at[0]);
+  }
   Vec3 point(const GridIndex& at) const;
   Vec3 point(std::uint32_t v) const { return point(place(v)); }
   /// The cube that holds a point of the box, by its lowest corner.

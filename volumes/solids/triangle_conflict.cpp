@@ -1,5 +1,6 @@
 #include "volumes/solids/triangle_conflict.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -25,6 +26,10 @@ bool meets(const Vec3& from, const Vec3& to, const Corners& t) {
 }
 
 bool is_coplanar(const Corners& p, const Corners& q) {
+  for (int k = 0; k < 3; ++k) {  // in a plane across an axis, as caps are
+    const auto equal = [&](const Vec3& x) { return x[k] == p[0][k]; };
+    if (std::ranges::all_of(p, equal) && std::ranges::all_of(q, equal)) return true;
+  }
   for (const Vec3& x : q)
     if (orient3d(p[0], p[1], p[2], x) != Sign::kZero) return false;
   return true;
@@ -70,8 +75,9 @@ bool are_in_conflict(const Corners& p, const IndexedTriangle& a, const Corners& 
   }
   if (shared == 3) return true;
   if (shared == 2) {  // folded onto each other?
-    if (orient3d(p[0], p[1], p[2], q[own_b]) != Sign::kZero) return false;
-    return glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), glm::cross(q[1] - q[0], q[2] - q[0])) <= 0.0;
+    const double facing =
+        glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), glm::cross(q[1] - q[0], q[2] - q[0]));
+    return facing <= 0.0 && orient3d(p[0], p[1], p[2], q[own_b]) == Sign::kZero;
   }
   if (is_coplanar(p, q)) return overlap_in_plane(p, q);
   if (shared == 1)
