@@ -4,6 +4,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 
 #include "volumes/solids/hidden_proof.h"
@@ -15,15 +17,15 @@ namespace {
 constexpr double kFirstPull = 1.0 / 64;
 /// Where an edge begins that is crossed since a grid point changed sides: so far from that point.
 constexpr double kStart = 1.0 / 16;
-/// Points on each side of a triangle at which it is judged, corners included.
-constexpr int kPointsASide = 4;
+/// Points on each side of a triangle at which it is judged, corners included: at first, and where it cannot be proved.
+constexpr int kFewPointsASide = 4, kManyPointsASide = 9;
 
 bool is_umbra(const SolidMeshRequest& request) {
   return request.region == ShadowRegion::kUmbra;
 }
 
-void append_points(const TriangleJudge::Triangle& t, std::vector<Vec3>& out) {
-  constexpr int n = kPointsASide - 1;
+void append_points(const TriangleJudge::Triangle& t, int a_side, std::vector<Vec3>& out) {
+  const int n = a_side - 1;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; i + j <= n; ++j)
       out.push_back(t[0] + (static_cast<double>(i) / n) * (t[1] - t[0]) +
@@ -61,9 +63,7 @@ class Carver {
 
 }  // namespace
 
-std::vector<TriangleJudge::Verdict> TriangleJudge::judge(std::span<const Triangle> triangles,
-                                                         std::size_t& evaluations) const {
-  std::vector<Verdict> out(triangles.size());
+void TriangleJudge::prove(std::span<const Triangle> triangles, std::vector<Verdict>& out) const {
   const LightFrame frame = light_frame(request_.light);
   Bounds all = request_.bound;
   all.add(tree_.bounds());
@@ -81,13 +81,20 @@ std::vector<TriangleJudge::Verdict> TriangleJudge::judge(std::span<const Triangl
       out[i].good = out[i].proved;
     }
   });
+}
+
+std::vector<TriangleJudge::Verdict> TriangleJudge::judge(std::span<const Triangle> triangles, bool thorough,
+                                                         std::size_t& evaluations) const {
+  std::vector<Verdict> out(triangles.size());
+  const bool umbra = is_umbra(request_);
+  if (thorough || !umbra) prove(triangles, out);
   if (!umbra) return out;
   std::vector<Vec3> points;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (out[i].proved) continue;
     asked.push_back(i);
-    append_points(triangles[i], points);
+    append_points(triangles[i], thorough ? kManyPointsASide : kFewPointsASide, points);
   }
   const std::vector<float> seen = request_.judge(points);
   evaluations += points.size();
@@ -103,7 +110,7 @@ GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& 
                   const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress) {
   const bool umbra = is_umbra(request);
   Carver carver(grid, edges, umbra);
-  for (;;) {
+  for (bool thorough = !umbra;;) {
     GridSurface surface = grid_surface(edges);
     const std::size_t edge_count = edges.all().size();
     const std::size_t judged = umbra ? surface.triangles.size() : surface.inner_triangles;
@@ -116,7 +123,15 @@ GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& 
       numbers.push_back(i);
       triangles.push_back({surface.positions[t[0]], surface.positions[t[1]], surface.positions[t[2]]});
     }
-    const std::vector<TriangleJudge::Verdict> verdicts = judge.judge(triangles, evaluations);
+    const std::vector<TriangleJudge::Verdict> verdicts = judge.judge(triangles, thorough, evaluations);
+    if (getenv("SOLID_DEBUG")) {
+      std::size_t pr = 0, bad = 0;
+      for (auto& v : verdicts) {
+        pr += v.proved;
+        bad += !v.good;
+      }
+      fprintf(stderr, "carve: judged %zu proved %zu bad %zu\n", verdicts.size(), pr, bad);
+    }
     report(progress, surface.triangles.empty() ? 1.0
                                                : 1.0 - static_cast<double>(triangles.size()) /
                                                            static_cast<double>(2 * surface.triangles.size()));
@@ -135,8 +150,12 @@ GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& 
       if (!pulled)
         for (const std::uint32_t v : t) carver.flip(surface.cap_points[v - edge_count]);
     }
-    if (all_good) return surface;
+    if (all_good && thorough) return surface;
     carver.finish();
+    if (all_good) {
+      thorough = true;
+      for (CrossedEdge& e : edges.all()) e.moved = true;
+    }
   }
 }
 

@@ -17,10 +17,14 @@ class TriangleJudge {
     bool good = false;  ///< proved, or not contradicted by any point
   };
   using Triangle = std::array<Vec3, 3>;
-  /// On all threads. `evaluations` grows by the points that were judged.
-  std::vector<Verdict> judge(std::span<const Triangle> triangles, std::size_t& evaluations) const;
+  /// On all threads. `thorough`: else those of an umbra are judged by few points alone. `evaluations` grows by the points that
+  /// were judged.
+  std::vector<Verdict> judge(std::span<const Triangle> triangles, bool thorough,
+                             std::size_t& evaluations) const;
 
  private:
+  void prove(std::span<const Triangle> triangles, std::vector<Verdict>& out) const;
+
   const SolidMeshRequest& request_;
   const CasterTree& tree_;
 };

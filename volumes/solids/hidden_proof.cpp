@@ -38,8 +38,12 @@ bool HiddenProof::separates(const LightShaft& shaft, std::uint32_t first, bool o
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t next = face.neighbors[k];
       if (next != CasterTree::kNoFace && seen_[next] == patch_) continue;
-      if (shaft.misses(c[k], c[(k + 1) % 3], c[(k + 1) % 3])) continue;
-      if (next == CasterTree::kNoFace || (one_kind && faces[next].kind == other)) return false;
+      const Vec3 &a = c[k], &b = c[(k + 1) % 3];
+      if (shaft.quickly_misses(a, b)) continue;
+      if (next == CasterTree::kNoFace || (one_kind && faces[next].kind == other)) {
+        if (!shaft.misses(a, b, b)) return false;
+        continue;
+      }
       seen_[next] = patch_;
       waiting_.push_back(next);
     }

@@ -18,12 +18,29 @@ constexpr double kMargin = 1e-12;
 constexpr double kTouching = 1e-9;
 constexpr int kMostSteps = 32;
 
+/// Of the sides.
+struct Directions {
+  Directions() {
+    for (int k = 0; k < LightShaft::kSides; ++k) {
+      x[k] = std::cos(2.0 * std::numbers::pi * k / LightShaft::kSides);
+      y[k] = std::sin(2.0 * std::numbers::pi * k / LightShaft::kSides);
+    }
+  }
+  std::array<double, LightShaft::kSides> x, y;
+};
+const Directions kDirections;
+
 }  // namespace
 
 LightShaft::LightShaft(const CircularLight& light, const LightFrame& frame, std::span<const Vec3> points,
                        double extent)
     : origin_(points[0]), count_(static_cast<int>(points.size())), axis_(frame.w), margin_(kMargin * extent) {
-  for (int i = 0; i < count_; ++i) points_[i] = points[i] - origin_;
+  base_low_ = base_high_ = points[0];
+  for (int i = 0; i < count_; ++i) {
+    points_[i] = points[i] - origin_;
+    base_low_ = glm::min(base_low_, points[i]);
+    base_high_ = glm::max(base_high_, points[i]);
+  }
   const double far = 2.0 * extent;
   if (light.is_distant()) {
     end_ = -far * axis_;
@@ -40,8 +57,7 @@ LightShaft::LightShaft(const CircularLight& light, const LightFrame& frame, std:
   // Side k touches T and the end: normal d + σm with the least σ at which T reaches as far along it as the end.
   const double height = -glm::dot(end_, axis_);
   for (int k = 0; k < kSides; ++k) {
-    const double angle = 2.0 * std::numbers::pi * k / kSides;
-    const Vec3 d = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
+    const Vec3 d = kDirections.x[k] * frame.u + kDirections.y[k] * frame.v;
     double sigma = 1e30;
     for (int i = 0; i < count_; ++i) {
       const double slope = (radius_ + glm::dot(d, end_) - (1.0 - kept_) * glm::dot(d, points_[i])) /
@@ -111,7 +127,14 @@ bool LightShaft::misses(const Vec3& a, const Vec3& b, const Vec3& c) const {
   return is_beyond_a_side(triangle) || is_separate(triangle, false);
 }
 
+bool LightShaft::quickly_misses(const Vec3& a, const Vec3& b) const {
+  return is_beyond_a_side({a - origin_, b - origin_, b - origin_});
+}
+
 bool LightShaft::base_misses(const Vec3& a, const Vec3& b, const Vec3& c) const {
+  for (int k = 0; k < 3; ++k)
+    if (std::max({a[k], b[k], c[k]}) < base_low_[k] || std::min({a[k], b[k], c[k]}) > base_high_[k])
+      return true;
   return is_separate({a - origin_, b - origin_, c - origin_}, true);
 }
 

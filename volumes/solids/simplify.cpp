@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <queue>
 
 #include "volumes/solids/face_boxes.h"
@@ -15,12 +16,16 @@ namespace {
 using Corners = std::array<Vec3, 3>;
 
 constexpr std::uint32_t kGone = ~0u;
-constexpr double kMargin = 2e-4;        ///< of the spacing, see PlacementOptions
-constexpr double kRounding = 1e-13;     ///< of the surface's size
-constexpr double kThin = 1e-4;          ///< of the spacing: new triangles are higher than this
-constexpr double kTurn = 0.1;           ///< cosine of how far a triangle may turn
+constexpr double kMargin = 2e-4;     ///< of the spacing, see PlacementOptions
+constexpr double kRounding = 1e-13;  ///< of the surface's size
+constexpr double kThin = 1e-4;       ///< of the spacing: new triangles are higher than this
+constexpr double kTurn = 0.1;        ///< cosine of how far a triangle may turn
+/// Another pass over all edges follows where one took away more than this share of the triangles.
+constexpr double kFewer = 0.01;
+constexpr int kMostPasses = 4;
 constexpr std::size_t kMostFaces = 40;  ///< around an edge
 
+/// An edge at the time when its cost was found. Later costs are hardly ever less, so that an old cost will do to wait by.
 struct Candidate {
   double cost;
   std::uint32_t a, b;
@@ -47,8 +52,10 @@ class Simplifier {
         quadrics_(positions_.size()),
         error_(positions_.size(), 0.0),
         version_(positions_.size(), 0),
+        became_(positions_.size()),
         on_side_(positions_.size(), 0),
         boxes_(boxes_of(positions_, triangles_)) {
+    std::iota(became_.begin(), became_.end(), 0u);
     const Bounds all = bounds_of(positions_);
     origin_ = all.center();
     rounding_ = kRounding * all.radius();
@@ -69,21 +76,19 @@ class Simplifier {
   }
 
   IndexedSurface run() {
-    for (std::uint32_t f = 0; f < triangles_.size(); ++f)
-      for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = triangles_[f][k], b = triangles_[f][(k + 1) % 3];
-        if (a < b) push(a, b);
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      push_all();
+      const auto start = static_cast<double>(queue_.size() + 1);
+      const std::size_t before = collapsed_;
+      std::size_t steps = 0;
+      while (!queue_.empty()) {
+        const Candidate c = queue_.top();
+        queue_.pop();
+        if (++steps % 1024 == 0 && pass == 0)
+          report(options_.progress, std::min(1.0, static_cast<double>(steps) / (2.0 * start)));
+        look_at(c);
       }
-    const auto start = static_cast<double>(queue_.size() + 1);
-    std::size_t steps = 0;
-    while (!queue_.empty()) {
-      const Candidate c = queue_.top();
-      queue_.pop();
-      if (++steps % 1024 == 0)
-        report(options_.progress, std::min(1.0, static_cast<double>(steps) / (3.0 * start)));
-      if (version_[c.a] != c.version_a || version_[c.b] != c.version_b) continue;
-      if (const std::optional<Plan> plan = plan_for(c.a, c.b); plan && is_allowed(c.a, c.b, plan->point))
-        collapse(c.a, c.b, *plan);
+      if (static_cast<double>(collapsed_ - before) < kFewer * static_cast<double>(triangles_.size())) break;
     }
     return result();
   }
@@ -105,10 +110,34 @@ class Simplifier {
   }
   static bool has(const IndexedTriangle& t, std::uint32_t v) { return t[0] == v || t[1] == v || t[2] == v; }
 
-  void push(std::uint32_t a, std::uint32_t b) {
-    if (const std::optional<Plan> plan = plan_for(a, b))
-      queue_.push(
-          {plan->cost, std::min(a, b), std::max(a, b), version_[std::min(a, b)], version_[std::max(a, b)]});
+  void push_all() {
+    for (const IndexedTriangle& t : triangles_)
+      for (int k = 0; k < 3; ++k) {
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+        if (a == kGone || a > b) continue;
+        if (const std::optional<Plan> plan = plan_for(a, b)) push(a, b, plan->cost);
+      }
+  }
+  void push(std::uint32_t a, std::uint32_t b, double cost) {
+    queue_.push({cost, a, b, version_[a], version_[b]});
+  }
+  /// What a vertex has become a part of.
+  std::uint32_t current(std::uint32_t v) {
+    while (became_[v] != v) v = became_[v] = became_[became_[v]];
+    return v;
+  }
+  bool is_edge(std::uint32_t a, std::uint32_t b) const {
+    return std::ranges::any_of(faces_at_[a], [&](std::uint32_t f) { return has(triangles_[f], b); });
+  }
+
+  void look_at(const Candidate& c) {
+    const std::uint32_t a = std::min(current(c.a), current(c.b)), b = std::max(current(c.a), current(c.b));
+    const bool is_old = a != c.a || b != c.b || version_[a] != c.version_a || version_[b] != c.version_b;
+    if (a == b || (is_old && !is_edge(a, b))) return;
+    const std::optional<Plan> plan = plan_for(a, b);
+    if (!plan) return;
+    if (is_old && !queue_.empty() && plan->cost > queue_.top().cost) return push(a, b, plan->cost);
+    if (is_allowed(a, b, plan->point)) collapse(a, b, *plan);
   }
 
   std::optional<Plan> plan_for(std::uint32_t a, std::uint32_t b) {
@@ -255,18 +284,10 @@ class Simplifier {
       faces_at_[a].push_back(f);
     }
     faces_at_[b].clear();
+    became_[b] = a;
     ++version_[a];
-    ++version_[b];
-    neighbors_.clear();
-    for (const std::uint32_t f : faces_at_[a]) {
-      boxes_.set(f, box_of(corners(triangles_[f])));
-      for (const std::uint32_t v : triangles_[f])
-        if (v != a) neighbors_.push_back(v);
-    }
-    std::sort(neighbors_.begin(), neighbors_.end());
-    neighbors_.erase(std::unique(neighbors_.begin(), neighbors_.end()), neighbors_.end());
-    const std::vector<std::uint32_t> around = neighbors_;
-    for (const std::uint32_t v : around) push(a, v);
+    ++collapsed_;
+    for (const std::uint32_t f : faces_at_[a]) boxes_.set(f, box_of(corners(triangles_[f])));
   }
 
   IndexedSurface result() const {
@@ -295,6 +316,8 @@ class Simplifier {
   std::vector<Quadric> quadrics_;
   std::vector<double> error_;  ///< how far the surface at a vertex may have moved
   std::vector<std::uint32_t> version_;
+  std::vector<std::uint32_t> became_;  ///< the vertex that a vertex was joined to, or itself
+  std::size_t collapsed_ = 0;
   std::vector<std::uint8_t> on_side_;  ///< bits of the box's sides
   FaceBoxes boxes_;
   Vec3 origin_{0.0};

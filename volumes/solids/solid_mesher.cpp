@@ -16,7 +16,7 @@ constexpr int kBoxDepth = 5;          ///< the bound is halved so often to find 
 constexpr int kBisections = 8;        ///< of a crossed edge
 constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from its ends
 /// Of the tolerance: so far may simplification move a point.
-constexpr double kSimplified = 0.4;
+constexpr double kSimplified = 0.25;
 
 class Mesher {
  public:
