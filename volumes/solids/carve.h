@@ -12,26 +12,26 @@ class TriangleJudge {
  public:
   TriangleJudge(const SolidMeshRequest& request, const CasterTree& tree) : request_(request), tree_(tree) {}
 
-  struct Verdict {
-    bool proved = false;
-    bool good = false;  ///< proved, or not contradicted by any point
+  /// Corners, as bits, that have to move; 0 where the triangle is proved or not contradicted by any point.
+  using Faults = std::vector<std::uint8_t>;
+  struct Surface {
+    std::span<const Vec3> positions;
+    std::span<const IndexedTriangle> triangles;
   };
-  using Triangle = std::array<Vec3, 3>;
-  /// On all threads. `thorough`: else those of an umbra are judged by few points alone. `evaluations` grows by the points that
-  /// were judged.
-  std::vector<Verdict> judge(std::span<const Triangle> triangles, bool thorough,
-                             std::size_t& evaluations) const;
+  /// Corners, middles of sides and of triangles are tried, each once. Of an umbra.
+  Faults try_points(const Surface& surface, std::size_t& evaluations) const;
+  /// Shafts are tried; where they prove nothing of an umbra, many points. `evaluations` grows by the points.
+  Faults try_proofs(const Surface& surface, std::size_t& evaluations) const;
+  /// One a triangle: it is proved. `depth`: see HiddenProof.
+  std::vector<char> prove(const Surface& surface, int depth) const;
 
  private:
-  void prove(std::span<const Triangle> triangles, std::vector<Verdict>& out) const;
-
   const SolidMeshRequest& request_;
   const CasterTree& tree_;
 };
 
-/// Moves vertices along their edges, and grid points to the other side, until no triangle is judged bad. Grid points of the
-/// umbra only ever leave it, those of the penumbra only ever join it, so that it ends. `progress` is told the share of
-/// triangles that are good.
+/// Moves vertices along their edges, and grid points to the other side, until no triangle has a fault. Grid points of the
+/// umbra only ever leave it, those of the penumbra only ever join it, so that it ends. `progress` is told about how far it is.
 GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& request,
                   const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress);
 
