@@ -57,7 +57,9 @@ std::vector<std::size_t> changed(const GridSurface& surface, const CrossedEdges&
   const std::size_t count = with_caps ? surface.triangles.size() : surface.inner_triangles;
   const auto has_moved = [&](std::uint32_t v) { return v >= edges.all().size() || edges.all()[v].moved; };
   for (std::size_t i = 0; i < count; ++i)
-    if (std::ranges::any_of(surface.triangles[i], has_moved)) out.push_back(i);
+    if (std::ranges::any_of(surface.triangles[i], has_moved) ||
+        (i < surface.inner_triangles && has_moved(surface.fourth[i])))
+      out.push_back(i);
   return out;
 }
 
@@ -68,7 +70,7 @@ GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& 
   const bool umbra = request.region == ShadowRegion::kUmbra;
   Carver carver(grid, edges, umbra);
   for (bool proofs = !umbra;;) {
-    GridSurface surface = grid_surface(edges);
+    GridSurface surface = grid_surface(edges, umbra ? Diagonals::kSmaller : Diagonals::kLarger);
     const std::vector<std::size_t> which = changed(surface, edges, umbra);
     std::vector<IndexedTriangle> triangles;
     for (const std::size_t i : which) triangles.push_back(surface.triangles[i]);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <glm/geometric.hpp>
 #include <unordered_map>
 
 namespace penumbra::detail {
@@ -15,23 +16,36 @@ constexpr unsigned kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}
 
 class Builder {
  public:
-  explicit Builder(const CrossedEdges& edges) : edges_(edges), grid_(edges.grid()) {}
+  Builder(const CrossedEdges& edges, Diagonals diagonals)
+      : edges_(edges), grid_(edges.grid()), diagonals_(diagonals) {}
 
   GridSurface run() {
     for (const CrossedEdge& e : edges_.all()) out_.positions.push_back(edges_.position(e));
     const std::vector<std::uint32_t>& blocks = edges_.active_blocks();
-    std::vector<std::vector<IndexedTriangle>> parts(blocks.size());
+    std::vector<Part> parts(blocks.size());
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
       for (std::uint32_t v = blocks[i] * 64; v < (blocks[i] + 1) * 64; ++v) add_cube(v, parts[i]);
     });
-    for (const auto& part : parts) out_.triangles.insert(out_.triangles.end(), part.begin(), part.end());
+    for (const Part& part : parts) {
+      out_.triangles.insert(out_.triangles.end(), part.triangles.begin(), part.triangles.end());
+      out_.fourth.insert(out_.fourth.end(), part.fourth.begin(), part.fourth.end());
+    }
     out_.inner_triangles = out_.triangles.size();
     add_caps();
     return std::move(out_);
   }
 
  private:
-  void add_cube(std::uint32_t v, std::vector<IndexedTriangle>& out) const {
+  struct Part {
+    std::vector<IndexedTriangle> triangles;
+    std::vector<std::uint32_t> fourth;
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t other) {
+      triangles.push_back({a, b, c});
+      fourth.push_back(other);
+    }
+  };
+
+  void add_cube(std::uint32_t v, Part& out) const {
     std::array<std::uint32_t, 8> corners;
     unsigned inside = 0;
     for (unsigned b = 0; b < 8; ++b) {
@@ -45,8 +59,7 @@ class Builder {
   }
 
   template <class On>
-  void add_tetrahedron(const unsigned (&t)[4], unsigned inside, const On& on,
-                       std::vector<IndexedTriangle>& out) const {
+  void add_tetrahedron(const unsigned (&t)[4], unsigned inside, const On& on, Part& out) const {
     unsigned mask = 0;
     for (unsigned k = 0; k < 4; ++k) mask |= (inside >> t[k] & 1) << k;
     const int count = std::popcount(mask);
@@ -60,17 +73,25 @@ class Builder {
       const auto& p = kFront[odd];
       const std::uint32_t x = on(t[p[0]], t[p[1]]), y = on(t[p[0]], t[p[2]]), z = on(t[p[0]], t[p[3]]);
       if (count == 1)
-        out.push_back({x, y, z});
+        out.add(x, y, z, x);
       else
-        out.push_back({x, z, y});
+        out.add(x, z, y, x);
       return;
     }
     for (const auto& p : kPairs) {
       if (mask != (1u << p[0] | 1u << p[1])) continue;
       const std::uint32_t ac = on(t[p[0]], t[p[2]]), ad = on(t[p[0]], t[p[3]]), bd = on(t[p[1]], t[p[3]]),
                           bc = on(t[p[1]], t[p[2]]);
-      out.push_back({ac, ad, bd});
-      out.push_back({ac, bd, bc});
+      const auto& at = out_.positions;
+      const Vec3 normal = glm::cross(at[ad] - at[ac], at[bd] - at[ac]);
+      const bool is_ridge = glm::dot(normal, at[bc] - at[ac]) < 0.0;  // the side between ac and bd
+      if (is_ridge == (diagonals_ == Diagonals::kLarger)) {
+        out.add(ac, ad, bd, bc);
+        out.add(ac, bd, bc, ad);
+      } else {
+        out.add(ac, ad, bc, bd);
+        out.add(ad, bd, bc, ac);
+      }
     }
   }
 
@@ -127,6 +148,7 @@ class Builder {
 
   const CrossedEdges& edges_;
   const SolidGrid& grid_;
+  Diagonals diagonals_;
   std::unordered_map<std::uint32_t, std::uint32_t> cap_points_;
   GridSurface out_;
 };
@@ -206,8 +228,8 @@ Vec3 CrossedEdges::position(const CrossedEdge& e) const {
   return inner + e.at * (outer - inner);
 }
 
-GridSurface grid_surface(const CrossedEdges& edges) {
-  return Builder(edges).run();
+GridSurface grid_surface(const CrossedEdges& edges, Diagonals diagonals) {
+  return Builder(edges, diagonals).run();
 }
 
 }  // namespace penumbra::detail

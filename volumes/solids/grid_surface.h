@@ -31,6 +31,8 @@ struct GridSurface {
   std::vector<Vec3> positions;
   std::vector<std::uint32_t> cap_points;  ///< grid vertices, of the positions that follow the edges'
   std::vector<IndexedTriangle> triangles;
+  /// One a triangle that lies inside of the grid: a vertex on which its shape depends as well as on its corners.
+  std::vector<std::uint32_t> fourth;
   /// The first so many lie inside of the grid, the rest in caps.
   std::size_t inner_triangles = 0;
 };
@@ -68,6 +70,9 @@ class CrossedEdges {
   std::vector<CrossedEdge> edges_;
 };
 
-GridSurface grid_surface(const CrossedEdges& edges);
+/// Where a tetrahedron has two triangles, they meet at the diagonal that makes the solid larger, or smaller.
+enum class Diagonals : std::uint8_t { kLarger, kSmaller };
+
+GridSurface grid_surface(const CrossedEdges& edges, Diagonals diagonals);
 
 }  // namespace penumbra::detail

@@ -40,7 +40,7 @@ class Mesher {
     report(request_.progress, 0.4);
     GridSurface surface;
     if (request_.region == ShadowRegion::kLevel) {
-      surface = grid_surface(edges);
+      surface = grid_surface(edges, Diagonals::kLarger);
     } else {
       const TriangleJudge judge(request_, tree_);
       surface = carve(grid, edges, request_, judge, out_.evaluations, part_of(request_.progress, 0.4, 0.8));

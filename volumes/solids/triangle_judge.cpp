@@ -11,7 +11,7 @@ namespace penumbra::detail {
 namespace {
 
 /// Points on each side of a triangle that cannot be proved, corners included.
-constexpr int kPointsASide = 9;
+constexpr int kPointsASide = 7;
 /// A point that sees light moves the corners that it lies nearer to than this, by barycentric coordinates.
 constexpr double kNear = 0.25;
 constexpr std::uint8_t kAll = 7;
