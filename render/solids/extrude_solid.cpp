@@ -13,8 +13,6 @@ namespace {
 
 /// Of the casters' diagonal.
 constexpr double kUsualTolerance = 0.01;
-/// Grid points lie so many tolerances apart.
-constexpr double kSpacing = 2.0;
 /// The umbra is judged at points by a light that is larger by this.
 constexpr double kLarger = 1.002;
 
@@ -75,6 +73,7 @@ ShadowSolid solid_of(detail::SolidMesh mesh, const SolidOptions& options) {
   out.mesh.guarantee =
       out.to_prove > 0 && out.proved == out.to_prove ? Guarantee::kCertified : Guarantee::kWithin;
   out.grid_triangles = mesh.grid_triangles;
+  out.spacing = mesh.spacing;
   out.grid_points = mesh.grid_points;
   out.evaluations = mesh.evaluations;
   out.stages = std::move(mesh.stages);
@@ -104,7 +103,6 @@ ShadowSolid extrude_solid(const Casters& casters, const LightShape& light, const
                                          .region = static_cast<detail::ShadowRegion>(level.kind),
                                          .level = level.fraction,
                                          .bound = bound,
-                                         .spacing = kSpacing * tolerance,
                                          .tolerance = tolerance,
                                          .judge = judge_of(casters, umbra ? enlarged(light) : light),
                                          .progress = options.progress};

@@ -47,7 +47,8 @@ struct ShadowSolid {
   /// Of the surface before it was simplified.
   std::size_t grid_triangles = 0;
   std::size_t grid_points = 0, evaluations = 0;
-  double tolerance = 0.0;
+  /// Scene units: as it was used, and the distance of grid points.
+  double tolerance = 0.0, spacing = 0.0;
   StageTimes stages;
 };
 

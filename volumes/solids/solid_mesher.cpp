@@ -15,8 +15,12 @@ namespace {
 constexpr int kBoxDepth = 5;          ///< the bound is halved so often to find where shadow may be
 constexpr int kBisections = 8;        ///< of a crossed edge
 constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from its ends
-/// Of the tolerance: so far may simplification move a point.
-constexpr double kSimplified = 0.25;
+/// Of the tolerance: grid points are at most so far apart, and at least. Where solids are thin they are as far apart as this share
+/// of volume over area, so that what is lost to the safe side stays a small share of the volume.
+constexpr double kCoarsest = 2.0, kFinest = 1.0, kThickness = 0.25;
+constexpr double kFirstLook = 4.0;   ///< of the tolerance: the grid that tells volume and area
+constexpr double kSimplified = 0.1;  ///< of the spacing: so far may simplification move a point
+constexpr int kProofDepth = 1;       ///< so often are triangles divided where they cannot be proved whole
 
 class Mesher {
  public:
@@ -28,11 +32,15 @@ class Mesher {
     const Bounds box = boxes.shadow_box(kBoxDepth);
     clock_.finish("hierarchy");
     if (box.empty()) return finish();
-    SolidGrid grid(box, request_.spacing);
+    out_.spacing = spacing_for(box, boxes);
+    SolidGrid grid(box, out_.spacing);
     judge_grid(grid, boxes);
     clock_.finish("grid");
     report(request_.progress, 0.3);
-    if (request_.region == ShadowRegion::kPenumbra) enclose_casters(grid);
+    if (request_.region == ShadowRegion::kPenumbra) {
+      enclose_casters(grid);
+      fill_cavities(grid);
+    }
     CrossedEdges edges(grid);
     edges.update(0.5, 0.0);
     bisect(edges);
@@ -48,6 +56,8 @@ class Mesher {
     clock_.finish("carving");
     take(std::move(surface), grid.box());
     clock_.finish("simplification");
+    if (request_.region != ShadowRegion::kLevel) prove();
+    clock_.finish("proof");
     return finish();
   }
 
@@ -89,6 +99,53 @@ class Mesher {
     judge_points(points, inside);
     for (std::size_t i = 0; i < vertices.size(); ++i) grid.set_inside(vertices[i], inside[i] != 0);
     out_.grid_points = grid.size();
+  }
+
+  /// Volume over area, by a coarse grid: by how many points are inside, and how many of its sides lead outside. The sides that a
+  /// plane crosses have 3/2 of its area on average over its directions.
+  double spacing_for(const Bounds& box, const LitBoxes& boxes) {
+    const double coarsest = kCoarsest * request_.tolerance;
+    SolidGrid grid(box, kFirstLook * request_.tolerance);
+    judge_grid(grid, boxes);
+    const Vec3& step = grid.step();
+    const std::array<double, 3> areas{step.y * step.z, step.z * step.x, step.x * step.y};
+    double volume = 0.0, area = 0.0;
+    for (std::uint32_t v = 0; v < grid.size(); ++v) {
+      if (grid.is_inside(v)) volume += step.x * step.y * step.z;
+      for (unsigned k = 0; k < 3; ++k) {
+        const std::uint32_t next = grid.beyond(v, 1u << k);
+        if (next != SolidGrid::kNone && grid.is_inside(v) != grid.is_inside(next)) area += areas[k] / 1.5;
+      }
+    }
+    if (!(volume > 0.0 && area > 0.0)) return coarsest;
+    return std::clamp(kThickness * volume / area, kFinest * request_.tolerance, coarsest);
+  }
+
+  /// What is lit sees the light, so that it hangs together with what lies outside of the grid. What does not is a fault of the
+  /// grid, or a body that is open at a hole finer than it.
+  static void fill_cavities(SolidGrid& grid) {
+    std::vector<char> reached(grid.size(), 0);
+    std::vector<std::uint32_t> waiting;
+    const auto reach = [&](std::uint32_t v) {
+      if (reached[v] || grid.is_inside(v)) return;
+      reached[v] = 1;
+      waiting.push_back(v);
+    };
+    const GridIndex& n = grid.counts();
+    for (std::uint32_t v = 0; v < grid.size(); ++v) {
+      const GridIndex at = grid.place(v);
+      for (int k = 0; k < 3; ++k)
+        if (at[k] == 0 || at[k] + 1 == n[k]) reach(v);
+    }
+    while (!waiting.empty()) {
+      const std::uint32_t v = waiting.back();
+      waiting.pop_back();
+      for (unsigned k = 0; k < 3; ++k)
+        for (const std::uint32_t next : {grid.beyond(v, 1u << k), grid.before(v, 1u << k)})
+          if (next != SolidGrid::kNone) reach(next);
+    }
+    for (std::uint32_t v = 0; v < grid.size(); ++v)
+      if (!reached[v]) grid.set_inside(v, true);
   }
 
   /// The tetrahedron of the grid that holds a point: its diagonal's cube is entered by the largest coordinate first.
@@ -146,9 +203,9 @@ class Mesher {
 
   void take(GridSurface surface, const Bounds& box) {
     out_.grid_triangles = surface.triangles.size();
-    SimplifyOptions options{.tolerance = kSimplified * request_.tolerance,
+    SimplifyOptions options{.tolerance = kSimplified * out_.spacing,
                             .box = box,
-                            .spacing = request_.spacing,
+                            .spacing = out_.spacing,
                             .progress = part_of(request_.progress, 0.8, 1.0)};
     options.side = request_.region == ShadowRegion::kUmbra      ? SimplifyOptions::Side::kInward
                    : request_.region == ShadowRegion::kPenumbra ? SimplifyOptions::Side::kOutward
@@ -157,6 +214,16 @@ class Mesher {
     out_.positions = std::move(simple.positions);
     out_.triangles = std::move(simple.triangles);
     for (const IndexedTriangle& t : out_.triangles) out_.is_cap.push_back(lies_in_a_side(t, box) ? 1 : 0);
+  }
+
+  void prove() {
+    std::vector<IndexedTriangle> triangles;
+    for (std::size_t i = 0; i < out_.triangles.size(); ++i)
+      if (!out_.is_cap[i]) triangles.push_back(out_.triangles[i]);
+    const std::vector<char> proved =
+        TriangleJudge(request_, tree_).prove({out_.positions, triangles}, kProofDepth);
+    out_.to_prove = triangles.size();
+    out_.proved = static_cast<std::size_t>(std::count(proved.begin(), proved.end(), char{1}));
   }
 
   bool lies_in_a_side(const IndexedTriangle& t, const Bounds& box) const {

@@ -38,8 +38,8 @@ struct SolidMeshRequest {
   double level = 0.5;
   /// Convex; the region ends there. It holds the casters.
   Bounds bound;
-  /// Scene units: distance of grid points, and how far a simplified surface may lie from the one on the grid.
-  double spacing = 0.0, tolerance = 0.0;
+  /// Scene units: detail of this size is kept.
+  double tolerance = 0.0;
   JudgePoints judge;
   Progress progress{};
 };
@@ -52,6 +52,7 @@ struct SolidMesh {
   /// Of the triangles that are not caps, those proved to be wholly in umbra, or wholly lit. All of them: the solid is proved.
   std::size_t proved = 0, to_prove = 0;
   std::size_t grid_points = 0, evaluations = 0, grid_triangles = 0;
+  double spacing = 0.0;  ///< of grid points, scene units
   StageTimes stages;
 };
 
