@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 
-#include "apps/cli/light_files.h"
 #include "apps/common/messages.h"
 #include "apps/common/scene_volumes.h"
 #include "penumbra/mesh/error.h"
@@ -157,6 +156,12 @@ class Writer {
 
 void check(const SolidArguments& arguments) {
   tolerance_of(arguments.tolerance, 1.0);
+}
+
+std::filesystem::path file_of_light(const std::filesystem::path& path, const std::string& light) {
+  if (light.empty() || path.empty()) return path;
+  std::filesystem::path named = path;
+  return named.replace_filename(path.stem().string() + "." + light + path.extension().string());
 }
 
 SolidReport write_solids(const SolidArguments& arguments, const Scene& scene, const LightShape& light,

@@ -21,6 +21,9 @@ struct SolidArguments {
 /// Throws UsageError.
 void check(const SolidArguments& arguments);
 
+/// "u.ply" → "u.NAME.ply"; as it is where the scene has one light or one was chosen.
+std::filesystem::path file_of_light(const std::filesystem::path& path, const std::string& light);
+
 struct SolidReport {
   nlohmann::json json;
   std::string findings;  ///< of --check, for a person

@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "apps/cli/commands.h"
-#include "apps/cli/light_files.h"
 #include "apps/cli/reports.h"
 #include "apps/cli/solid_volumes.h"
 #include "apps/common/messages.h"

@@ -1,8 +1,8 @@
 // Solids: a surface on grid edges is moved to the safe side, triangle by triangle.
 #pragma once
 
-#include "volumes/solids/caster_tree.h"
 #include "volumes/solids/grid_surface.h"
+#include "volumes/solids/shafts/caster_tree.h"
 #include "volumes/solids/solid_mesher.h"
 
 namespace penumbra::detail {

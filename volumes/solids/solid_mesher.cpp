@@ -6,8 +6,9 @@
 #include <cmath>
 
 #include "volumes/solids/carve.h"
-#include "volumes/solids/shadow_box.h"
-#include "volumes/solids/simplify.h"
+#include "volumes/solids/convex_solid.h"
+#include "volumes/solids/shafts/shadow_box.h"
+#include "volumes/solids/simplify/simplify.h"
 
 namespace penumbra::detail {
 namespace {
@@ -250,6 +251,7 @@ class Mesher {
 }  // namespace
 
 SolidMesh mesh_shadow(const SolidMeshRequest& request) {
+  if (std::optional<SolidMesh> convex = mesh_convex_shadow(request)) return std::move(*convex);
   return Mesher(request).run();
 }
 

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "volumes/solids/carve.h"
-#include "volumes/solids/hidden_proof.h"
+#include "volumes/solids/shafts/hidden_proof.h"
 
 namespace penumbra::detail {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "penumbra/render/solids/extrude_solid.h"
 #include "tests/oracle/oracle.h"
-#include "volumes/solids/caster_tree.h"
+#include "volumes/solids/shafts/caster_tree.h"
 
 namespace penumbra {
 

@@ -1,11 +1,12 @@
 // Surfaces of random grids, with vertices anywhere on their edges: sound, and still so when they are simplified.
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <random>
 
 #include "penumbra/volumes/checks/validate.h"
 #include "volumes/solids/grid_surface.h"
-#include "volumes/solids/simplify.h"
+#include "volumes/solids/simplify/simplify.h"
 
 namespace penumbra::detail {
 namespace {

@@ -1,5 +1,5 @@
 // What is proved to be in umbra is: triangles behind bodies, against rays in double.
-#include "volumes/solids/hidden_proof.h"
+#include "volumes/solids/shafts/hidden_proof.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ namespace {
 
 TEST(HiddenProof, HoldsOnlyWhereNothingOfTheLightIsSeen) {
   const DiskLight light{{0.3, 4.0, 0.2}, {0.0, -1.0, 0.0}, 0.4};
-  const std::vector<TriangleMesh> casters{make_torus(1.0, 0.45, 48, 24), make_sphere(0.3, 24, 12)};
+  const std::vector<TriangleMesh> casters{make_torus(Vec3(0.0), 1.0, 0.45, 48, 24),
+                                          make_icosphere(Vec3(0.0), 0.3, 3)};
   const CasterTree tree(casters, light);
   const oracle::Oracle oracle(casters);
   HiddenProof proof(tree, light);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "mesh/vectors.h"
-#include "volumes/solids/light_shaft.h"
+#include "volumes/solids/shafts/light_shaft.h"
 
 namespace penumbra::detail {
 namespace {
@@ -66,7 +66,9 @@ TEST_P(LightShafts, MissWhatLiesAsideByLittle) {
     const Vec3 rim =
         l.is_distant() ? x + 100.0 * (l.radius * across - frame.w) : l.center + l.radius * across;
     const Vec3 way = glm::normalize(rim - x);
-    const Vec3 along = glm::normalize(glm::cross(way, across)), out = glm::cross(along, way);
+    // The plane that touches the cone there holds the ray and the rim's tangent.
+    const Vec3 along = glm::normalize(glm::cross(frame.w, across)),
+               out = glm::normalize(glm::cross(along, way));
     const Vec3 beside = x + unit_(random_) * way + (glm::dot(out, across) > 0.0 ? 1e-6 : -1e-6) * out;
     EXPECT_TRUE(shaft.misses(beside + 0.3 * along, beside - 0.3 * along, beside - 0.3 * along)) << round;
   }

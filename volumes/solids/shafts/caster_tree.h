@@ -8,7 +8,7 @@
 
 #include "penumbra/mesh/triangle_mesh.h"
 #include "penumbra/volumes/predicates/predicates.h"
-#include "volumes/solids/light_shaft.h"
+#include "volumes/solids/shafts/light_shaft.h"
 
 namespace penumbra::detail {
 

@@ -1,7 +1,7 @@
 // Solids: where in a bound something of a light may be hidden.
 #pragma once
 
-#include "volumes/solids/caster_tree.h"
+#include "volumes/solids/shafts/caster_tree.h"
 
 namespace penumbra::detail {
 

@@ -1,4 +1,4 @@
-#include "volumes/solids/light_shaft.h"
+#include "volumes/solids/shafts/light_shaft.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "mesh/vectors.h"
-#include "volumes/solids/closest_to_origin.h"
+#include "volumes/solids/shafts/closest_to_origin.h"
 
 namespace penumbra::detail {
 namespace {

@@ -1,4 +1,4 @@
-#include "volumes/solids/one_sided_point.h"
+#include "volumes/solids/simplify/one_sided_point.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ namespace {
 /// Of the trace: how strongly a point is drawn to the start, where planes leave it free.
 constexpr double kDrawn = 1e-4;
 constexpr int kSweeps = 60;
-constexpr std::size_t kMostHalfSpaces = 64;
+constexpr std::size_t kMostLimits = 64;
 
 glm::dmat3 inverse_of(const Quadric& q, const PlacementOptions& options) {
   const auto& m = q.matrix;
@@ -57,9 +57,9 @@ double Quadric::at(const Vec3& x) const {
 }
 
 /// C. Hildreth's dual ascent (1957): half-space by half-space, each multiplier to where its own is met or 0.
-std::optional<Vec3> place_one_sided(const Quadric& q, std::span<const HalfSpace> half_spaces,
-                                    const Vec3& start, const PlacementOptions& options) {
-  if (half_spaces.size() > kMostHalfSpaces) return std::nullopt;
+std::optional<Vec3> place_one_sided(const Quadric& q, std::span<const PlaneLimit> limits, const Vec3& start,
+                                    const PlacementOptions& options) {
+  if (limits.size() > kMostLimits) return std::nullopt;
   const auto& m = q.matrix;
   const glm::dmat3 inverse = inverse_of(q, options);
   const Vec3 gradient =
@@ -69,20 +69,20 @@ std::optional<Vec3> place_one_sided(const Quadric& q, std::span<const HalfSpace>
   Vec3 x = start - inverse * gradient;
   const auto worst = [&] {
     double most = -1e300;
-    for (const HalfSpace& h : half_spaces) most = std::max(most, glm::dot(h.normal, x) - h.offset);
+    for (const PlaneLimit& h : limits) most = std::max(most, glm::dot(h.normal, x) - h.offset);
     return most;
   };
   if (worst() <= options.rounding) return x;
-  std::array<double, kMostHalfSpaces> multiplier{}, curvature{};
-  std::array<Vec3, kMostHalfSpaces> way;
-  for (std::size_t i = 0; i < half_spaces.size(); ++i) {
-    way[i] = inverse * half_spaces[i].normal;
-    curvature[i] = glm::dot(half_spaces[i].normal, way[i]);
+  std::array<double, kMostLimits> multiplier{}, curvature{};
+  std::array<Vec3, kMostLimits> way;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    way[i] = inverse * limits[i].normal;
+    curvature[i] = glm::dot(limits[i].normal, way[i]);
   }
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (std::size_t i = 0; i < half_spaces.size(); ++i) {
+    for (std::size_t i = 0; i < limits.size(); ++i) {
       if (!(curvature[i] > 0.0)) continue;
-      const HalfSpace& h = half_spaces[i];
+      const PlaneLimit& h = limits[i];
       const double beyond = glm::dot(h.normal, x) - h.offset + options.margin;
       const double change = std::max(beyond / curvature[i], -multiplier[i]);
       multiplier[i] += change;

@@ -1,4 +1,4 @@
-#include "volumes/solids/triangle_conflict.h"
+#include "volumes/solids/simplify/triangle_conflict.h"
 
 #include <algorithm>
 #include <cmath>

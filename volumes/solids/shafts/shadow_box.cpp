@@ -1,4 +1,4 @@
-#include "volumes/solids/shadow_box.h"
+#include "volumes/solids/shafts/shadow_box.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "volumes/solids/closest_to_origin.h"
+#include "volumes/solids/shafts/closest_to_origin.h"
 
 #include <glm/geometric.hpp>
 

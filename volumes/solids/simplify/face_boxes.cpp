@@ -1,4 +1,4 @@
-#include "volumes/solids/face_boxes.h"
+#include "volumes/solids/simplify/face_boxes.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "volumes/solids/hidden_proof.h"
+#include "volumes/solids/shafts/hidden_proof.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "volumes/solids/caster_tree.h"
+#include "volumes/solids/shafts/caster_tree.h"
 
 #include <tbb/parallel_for.h>
 

@@ -12,7 +12,7 @@
 
 #include <vector>
 
-#include "volumes/solids/caster_tree.h"
+#include "volumes/solids/shafts/caster_tree.h"
 
 namespace penumbra::detail {
 

@@ -1,4 +1,4 @@
-#include "volumes/solids/simplify.h"
+#include "volumes/solids/simplify/simplify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <numeric>
 #include <queue>
 
-#include "volumes/solids/face_boxes.h"
-#include "volumes/solids/one_sided_point.h"
-#include "volumes/solids/triangle_conflict.h"
+#include "volumes/solids/simplify/face_boxes.h"
+#include "volumes/solids/simplify/one_sided_point.h"
+#include "volumes/solids/simplify/triangle_conflict.h"
 
 namespace penumbra::detail {
 namespace {
@@ -150,8 +150,8 @@ class Simplifier {
       placement.fixed[k] = low || high;
       if (low || high) start[k] = (low ? options_.box.low[k] : options_.box.high[k]) - origin_[k];
     }
-    // Half-spaces of the triangles around; those in sides of the box bound nothing, the point stays there.
-    half_spaces_.clear();
+    // Limits by the triangles around; those in sides of the box bound nothing, the point stays there.
+    limits_.clear();
     areas_.clear();
     const double sign = options_.side == SimplifyOptions::Side::kOutward ? -1.0 : 1.0;
     for (const std::uint32_t v : {a, b})
@@ -162,13 +162,13 @@ class Simplifier {
         const Vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
         const double twice = glm::length(n);
         if (!(twice > 0.0)) return std::nullopt;
-        half_spaces_.push_back({sign / twice * n, sign / twice * glm::dot(n, c[0] - origin_)});
+        limits_.push_back({sign / twice * n, sign / twice * glm::dot(n, c[0] - origin_)});
         areas_.push_back(0.5 * twice);
       }
-    if (half_spaces_.size() > kMostFaces) return std::nullopt;
+    if (limits_.size() > kMostFaces) return std::nullopt;
     Quadric quadric = quadrics_[a];
     quadric += quadrics_[b];
-    const std::span<const HalfSpace> bounds(half_spaces_);
+    const std::span<const PlaneLimit> bounds(limits_);
     const std::optional<Vec3> x =
         place_one_sided(quadric, options_.side == SimplifyOptions::Side::kEither ? bounds.first(0) : bounds,
                         start, placement);
@@ -177,8 +177,8 @@ class Simplifier {
     for (int k = 0; k < 3; ++k)
       if (placement.fixed[k]) plan.point[k] = sides >> k & 1 ? options_.box.low[k] : options_.box.high[k];
     double most = 0.0;
-    for (std::size_t i = 0; i < half_spaces_.size(); ++i) {
-      const double by = std::abs(glm::dot(half_spaces_[i].normal, *x) - half_spaces_[i].offset);
+    for (std::size_t i = 0; i < limits_.size(); ++i) {
+      const double by = std::abs(glm::dot(limits_[i].normal, *x) - limits_[i].offset);
       plan.cost += areas_[i] * by / 3.0;
       most = std::max(most, by);
     }
@@ -323,7 +323,7 @@ class Simplifier {
   Vec3 origin_{0.0};
   double rounding_ = 0.0;
   std::priority_queue<Candidate> queue_;
-  std::vector<HalfSpace> half_spaces_;
+  std::vector<PlaneLimit> limits_;
   std::vector<double> areas_;
   std::vector<std::uint32_t> neighbors_, others_;
 };

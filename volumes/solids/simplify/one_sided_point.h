@@ -26,7 +26,7 @@ struct Quadric {
 };
 
 /// normal · x ≤ offset, with a unit normal.
-struct HalfSpace {
+struct PlaneLimit {
   Vec3 normal;
   double offset;
 };
@@ -38,8 +38,8 @@ struct PlacementOptions {
   double rounding = 0.0, margin = 0.0;
 };
 
-/// The point of all half-spaces with the least quadric, near `start` where that leaves a choice. Nothing where none is found.
-std::optional<Vec3> place_one_sided(const Quadric& quadric, std::span<const HalfSpace> half_spaces,
+/// The point of all limits with the least quadric, near `start` where that leaves a choice. Nothing where none is found.
+std::optional<Vec3> place_one_sided(const Quadric& quadric, std::span<const PlaneLimit> limits,
                                     const Vec3& start, const PlacementOptions& options);
 
 }  // namespace penumbra::detail
