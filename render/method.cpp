@@ -5,6 +5,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/rays/ray_methods.h"
 #include "render/silhouette/silhouette_method.h"
+#include "render/support/nearest_word.h"
 
 namespace penumbra {
 namespace {
@@ -12,6 +13,12 @@ namespace {
 bool has_option(const MethodInfo& method, std::string_view name) {
   return std::any_of(method.options.begin(), method.options.end(),
                      [&](const OptionSchema& option) { return option.name == name; });
+}
+
+std::vector<std::string> names_of(const std::vector<OptionSchema>& options) {
+  std::vector<std::string> names;
+  for (const OptionSchema& option : options) names.push_back(option.name);
+  return names;
 }
 
 void require_sound(const MethodInfo& info) {
@@ -64,12 +71,15 @@ const std::deque<MethodInfo>& methods() {
 }
 
 const MethodInfo& method_named(std::string_view name) {
+  std::vector<std::string> names;
   std::string known;
   for (const MethodInfo& method : methods()) {
     if (method.name == name) return method;
+    names.push_back(method.name);
     known += (known.empty() ? "" : ", ") + method.name;
   }
-  throw UsageError("unknown method '" + std::string(name) + "': use one of " + known);
+  throw UsageError("unknown method '" + std::string(name) + "'" + did_you_mean(name, names) +
+                   ": use one of " + known);
 }
 
 void require_taken(const MethodInfo& method, const LightShape& light) {
@@ -100,7 +110,7 @@ void require_known(const OptionValues& options) {
   for (const auto& [name, value] : options)
     if (std::none_of(methods().begin(), methods().end(),
                      [&, key = name](const MethodInfo& method) { return has_option(method, key); }))
-      throw UsageError("no method has an option " + name);
+      throw UsageError("no method has an option " + name + did_you_mean(name, names_of(all_options())));
 }
 
 void require_complete(const MethodInfo& method, const MethodResult& result, std::size_t receivers) {

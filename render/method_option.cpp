@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "penumbra/mesh/error.h"
+#include "render/support/nearest_word.h"
 
 namespace penumbra {
 namespace {
@@ -105,6 +106,14 @@ std::string OptionSchema::allowed() const {
                     domain);
 }
 
+std::string OptionSchema::refusal(std::string_view text) const {
+  std::vector<std::string> words;
+  if (const auto* choice = std::get_if<WordChoice>(&domain)) words = choice->words;
+  if (const auto* range = std::get_if<RealRange>(&domain)) words = range->words;
+  std::string message = "'";
+  return message.append(text) + "' is not allowed" + did_you_mean(text, words) + "; give " + allowed();
+}
+
 OptionValue OptionSchema::parse(std::string_view text) const {
   std::optional<OptionValue> value;
   const bool whole =
@@ -116,14 +125,12 @@ OptionValue OptionSchema::parse(std::string_view text) const {
   } else {
     value = std::string(text);
   }
-  if (!value || !allows(domain, *value))
-    throw UsageError("option " + name + ": '" + std::string(text) + "' is not allowed; give " + allowed());
+  if (!value || !allows(domain, *value)) throw UsageError("option " + name + ": " + refusal(text));
   return *value;
 }
 
 void OptionSchema::require_allowed(const OptionValue& value) const {
-  if (!allows(domain, value))
-    throw UsageError("option " + name + ": '" + to_text(value) + "' is not allowed; give " + allowed());
+  if (!allows(domain, value)) throw UsageError("option " + name + ": " + refusal(to_text(value)));
 }
 
 bool operator==(const OptionSchema& a, const OptionSchema& b) {

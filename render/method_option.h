@@ -54,6 +54,8 @@ struct OptionSchema {
 
   /// "4 to 1024 rows", "4, 8, 12 or 16", "auto, orthographic or a number above 0".
   std::string allowed() const;
+  /// "'edg' is not allowed (did you mean edge?); give edge or distances".
+  std::string refusal(std::string_view text) const;
   /// Throws UsageError that names the option, the text and what is allowed.
   OptionValue parse(std::string_view text) const;
   /// Throws UsageError where the value is of another type or outside of the domain.

@@ -5,7 +5,9 @@
 
 #include "apps/cli/commands.h"
 #include "apps/common/failures.h"
+#include "apps/common/interrupts.h"
 #include "apps/common/messages.h"
+#include "apps/common/parse_errors.h"
 #include "penumbra/render/renderer.h"
 
 namespace penumbra::apps {
@@ -25,13 +27,6 @@ Examples:
 Exit codes: 0 fine, 1 failed (an output cannot be written, say), 2 bad usage, 3 bad mesh or scene.
 Every subcommand explains itself: penumbra render --help)";
 
-// Which help to read: that of the subcommand on the command line, where there is one.
-std::string help_hint(const CLI::App& app) {
-  for (const CLI::App* command : app.get_subcommands())
-    return "see penumbra " + command->get_name() + " --help";
-  return "see penumbra --help";
-}
-
 // Output may be buffered until now: a full disk behind standard output shows only here.
 int flush_standard_output() {
   std::cout.flush();
@@ -44,7 +39,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::Success& e) {  // --help, --version
     app.exit(e, std::cout, std::cerr);
   } catch (const CLI::ParseError& e) {
-    return fail(kBadUsage, std::string(e.what()) + "; " + help_hint(app));
+    return fail(kBadUsage, explain(app, e, {argv + 1, argv + argc}));
   }
   return flush_standard_output();
 }
@@ -52,6 +47,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
+  clean_up_when_interrupted();
   register_drawing_methods();
   CLI::App app(kDescription, "penumbra");
   app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);

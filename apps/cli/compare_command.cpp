@@ -7,9 +7,11 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/compare_picture.h"
 #include "apps/cli/comparison.h"
+#include "apps/cli/made_by.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
+#include "apps/common/parse_errors.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {
@@ -36,6 +38,9 @@ struct Arguments {
   bool json = false;
   double exposure = 0.0;
 
+  std::vector<Output> outputs() const {
+    return {{"--picture", picture}, {"--signed-difference", signed_difference}};
+  }
   bool wants_pictures() const { return !picture.empty() || !signed_difference.empty(); }
   bool against_image() const { return extension_of(scene.path) == ".exr"; }
 };
@@ -45,13 +50,25 @@ void check(const Arguments& arguments) {
     throw UsageError("--judge double needs the scene as B; an image is taken as it is");
   require_extension("A", arguments.image, {".exr"}, false);
   if (!arguments.beside.empty()) require_extension("--beside", arguments.beside, {".exr"}, false);
-  const std::pair<const char*, const std::filesystem::path*> pictures[] = {
-      {"--picture", &arguments.picture}, {"--signed-difference", &arguments.signed_difference}};
-  for (const auto& [option, path] : pictures) {
-    if (path->empty()) continue;
-    require_extension(option, *path, {".png"}, false);  // figures go to standard output
-    require_writable(*path);
+  for (const auto& [option, path] : arguments.outputs()) {
+    if (path.empty()) continue;
+    require_extension(option, path, {".png"}, false);  // figures go to standard output
+    require_writable(path);
   }
+  require_apart(arguments.outputs(), {arguments.image, arguments.scene.path, arguments.beside});
+}
+
+/// One line for each option that was given and has no effect.
+void say_what_is_ignored(const Arguments& arguments, const CLI::App& command) {
+  const auto given = [&command](const char* option) { return command.count(option) > 0; };
+  if (arguments.against_image())
+    for (const char* option : {"--samples", "--judge", "--strict"})
+      if (given(option)) say_ignored(option, "B is an image, which is taken as it is");
+  if (given("--judge-pixels") && arguments.judge != "double")
+    say_ignored("--judge-pixels", "only --judge double chooses pixels");
+  if (arguments.picture.empty())
+    for (const char* option : {"--beside", "--exposure"})
+      if (given(option)) say_ignored(option, "there is no --picture");
 }
 
 nlohmann::json to_json(const ErrorFigures& figures) {
@@ -67,11 +84,26 @@ nlohmann::json to_json(const ErrorFigures& figures) {
           {"max_absolute", figures.max_absolute}};
 }
 
-nlohmann::json to_json(const Arguments& arguments, const Comparison& comparison) {
+/// What made A, and B where it is an image.
+struct Makers {
+  Metadata image;
+  std::optional<Metadata> reference;
+};
+
+/// What the table begins with.
+std::string heading(const Arguments& arguments, const Makers& makers) {
+  std::string text = "A " + arguments.image.string() + ": " + made_by(makers.image) + "\n";
+  text += "B " + arguments.scene.path.string();
+  return text + (makers.reference ? ": " + made_by(*makers.reference) : "") + "\n";
+}
+
+nlohmann::json to_json(const Arguments& arguments, const Makers& makers, const Comparison& comparison) {
   nlohmann::json report = {
       {"image", arguments.image.string()},    {"reference", arguments.scene.path.string()},
       {"all", to_json(comparison.all)},       {"penumbra", to_json(comparison.in_penumbra)},
       {"skipped_pixels", comparison.skipped}, {"difference_scale", difference_scale(comparison)}};
+  report["image_made_by"] = made_by_json(makers.image);
+  if (makers.reference) report["reference_made_by"] = made_by_json(*makers.reference);
   if (arguments.judged.object) report["object"] = *arguments.judged.object;
   if (!arguments.judged.light.empty()) report["light"] = arguments.judged.light;
   if (comparison.samples == 0) return report;
@@ -133,8 +165,9 @@ std::string scale_line(double scale) {
 }
 
 void write_pictures(const Arguments& arguments, std::span<const JudgedImage> images, const Image* reference) {
-  const auto write = [](const std::filesystem::path& path, const Picture& picture) {
+  const auto write = [&](const std::filesystem::path& path, const Picture& picture) {
     write_png(path, picture.width(), picture.height(), picture.rgb());
+    say_written(arguments.common.verbose, path);
   };
   if (!arguments.signed_difference.empty())
     write(arguments.signed_difference,
@@ -154,6 +187,7 @@ void run(const Arguments& arguments) {
     reference = read_exr(arguments.scene.path);
   } else {
     scene = load(arguments.scene);
+    require_apart(arguments.outputs(), files_of(arguments.scene, *scene));
     to_scene.emplace(*scene, arguments.judged, arguments.trace);
   }
   const auto compare = [&](const Image& image) {
@@ -164,8 +198,14 @@ void run(const Arguments& arguments) {
     return JudgedImage{image, path.stem().string(), arguments.judged.channel(), comparison};
   };
   const Image image = read_exr(arguments.image);
+  Makers makers{.image = image.metadata, .reference = {}};
+  if (reference) makers.reference = reference->metadata;
+  for (const std::string& name :
+       differences(image.metadata, reference ? reference->metadata : metadata_of(*scene)))
+    complain("warning: A and B differ in " + name + "; figures may judge that");
   const Comparison comparison = compare(image);
-  std::string text = arguments.json ? to_text(to_json(arguments, comparison)) : to_table(comparison);
+  std::string text = arguments.json ? to_text(to_json(arguments, makers, comparison))
+                                    : heading(arguments, makers) + to_table(comparison);
   if (!arguments.json && arguments.wants_pictures()) text += scale_line(difference_scale(comparison));
   print(text);
   std::vector<JudgedImage> images{judged(arguments.image, image, comparison)};
@@ -194,11 +234,12 @@ void add_compare_command(CLI::App& app) {
           ->check(CLI::Range(16, 1 << 20))
           ->capture_default_str();
   command
-      .add_option(
-          "--judge", arguments->judge,
-          "What traces the references: rays (Embree), or double (shares nothing with the methods; "
-          "at some pixels, 1,024 rays each unless --samples says otherwise)")
-      ->check(CLI::IsMember({"rays", "double"}))
+      .add_option("--judge", arguments->judge,
+                  "What traces the references: rays (Embree), or double (shares nothing with the methods; "
+                  "at some pixels, 1,024 rays each unless --samples says otherwise)")
+      ->check([](const std::string& word) {
+        return require_one_of({"rays", "double"}, word);
+      })
       ->capture_default_str();
   command
       .add_option("--judge-pixels", arguments->judge_pixels,
@@ -230,7 +271,8 @@ void add_compare_command(CLI::App& app) {
   add_strict_option(command, arguments->scene);
   add_common_options(command, arguments->common);
   command.footer(kFooter);
-  command.callback([arguments, samples] {
+  command.callback([arguments, samples, &command] {
+    say_what_is_ignored(*arguments, command);
     if (arguments->judge == "double") {
       arguments->trace.oracle_pixels = arguments->judge_pixels;
       if (samples->empty()) arguments->trace.samples = 1'024;

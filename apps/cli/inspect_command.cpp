@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <span>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/inspect_reports.h"
+#include "apps/common/options.h"
 #include "apps/common/outputs.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/io/polygon_soup.h"
@@ -27,10 +29,20 @@ struct Arguments {
   bool json = false;
 };
 
-RepairResult repair_file(const Arguments& arguments) {
+void check(const Arguments& arguments) {
+  if (arguments.repair.empty()) return;
   require_extension("--repair", arguments.repair, mesh_extensions(), false);
   require_writable(arguments.repair);
-  const PolygonSoup soup = read_polygon_soup(arguments.mesh);
+  require_apart({{"--repair", arguments.repair}}, {arguments.mesh});
+}
+
+PolygonSoup read(const Arguments& arguments) {
+  if (!is_standard(arguments.mesh)) return read_polygon_soup(arguments.mesh);
+  const std::string bytes = read_standard_input();
+  return parse_polygon_soup(std::as_bytes(std::span(bytes)), kStandardInput);
+}
+
+RepairResult repair_file(const Arguments& arguments, const PolygonSoup& soup) {
   RepairResult result = repair(soup.positions, triangulate(soup).triangles);
   write_mesh(arguments.repair, TriangleMesh::build(result.positions, result.triangles));
   return result;
@@ -47,9 +59,12 @@ std::string json_of(const MeshFindings& findings, const std::optional<RepairResu
 }
 
 void run(const Arguments& arguments) {
-  const MeshFindings findings = inspect(load_mesh(arguments.mesh));
+  check(arguments);
+  const PolygonSoup soup = read(arguments);
+  const MeshFindings findings =
+      inspect(load_mesh(soup, is_standard(arguments.mesh) ? kStandardInput : arguments.mesh.string()));
   std::optional<RepairResult> repaired;
-  if (!arguments.repair.empty()) repaired = repair_file(arguments);
+  if (!arguments.repair.empty()) repaired = repair_file(arguments, soup);
   print(arguments.json ? json_of(findings, repaired) : text_of(findings, repaired));
 }
 
@@ -58,7 +73,8 @@ void run(const Arguments& arguments) {
 void add_inspect_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("inspect", "Counts, openness, orientation and defects of a mesh");
   auto arguments = std::make_shared<Arguments>();
-  command.add_option("MESH", arguments->mesh, "Mesh file: " + mesh_format_names())->required();
+  command.add_option("MESH", arguments->mesh, "Mesh file: " + mesh_format_names() + "; - is standard input")
+      ->required();
   command.add_flag("--json", arguments->json, "Print JSON");
   command
       .add_option("--repair", arguments->repair,

@@ -1,8 +1,10 @@
 // penumbra render: one image of a scene.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/made_by.h"
 #include "apps/cli/probe.h"
 #include "apps/common/messages.h"
 #include "apps/common/method_options.h"
@@ -26,11 +28,18 @@ struct Arguments {
   CommonOptions common;
   SceneInput scene;
   std::string method = kDefaultMethod, size = "640x480", probe;
-  std::vector<std::filesystem::path> outputs;
+  std::vector<std::filesystem::path> images;
   std::filesystem::path stats;
   double exposure = 0.0;
   int warm_up = 0;
   OptionValues options;
+
+  std::vector<Output> outputs() const {
+    std::vector<Output> all;
+    for (const auto& image : images) all.push_back({"--output", image});
+    all.push_back({"--stats", stats});
+    return all;
+  }
 };
 
 // Everything that can be refused without reading the scene.
@@ -41,18 +50,33 @@ RenderOptions checked_options(const Arguments& arguments) {
   const PixelPair size = parse_size(arguments.size);
   options.width = size.x;
   options.height = size.y;
-  if (arguments.outputs.empty() && arguments.stats.empty() && arguments.probe.empty())
+  if (arguments.images.empty() && arguments.stats.empty() && arguments.probe.empty())
     throw UsageError("nothing to do; give --output image.png, --stats or --probe");
-  std::vector<std::filesystem::path> destinations = arguments.outputs;
+  std::vector<std::filesystem::path> destinations = arguments.images;
   destinations.push_back(arguments.stats);
   if (!arguments.probe.empty()) {
     parse_pixel(arguments.probe, size);
     destinations.push_back("-");
   }
   require_one_stdout(destinations);
-  for (const auto& output : arguments.outputs) require_extension("--output", output, {".png", ".exr"}, true);
+  for (const auto& output : arguments.images) require_extension("--output", output, {".png", ".exr"}, true);
   for (const auto& destination : destinations) require_writable(destination);
+  require_apart(arguments.outputs(), {arguments.scene.path});
   return options;
+}
+
+/// One line for each option that was given and has no effect.
+void say_what_is_ignored(const Arguments& arguments) {
+  const MethodInfo& method = method_named(arguments.method);
+  for (const auto& [name, value] : arguments.options)
+    if (std::ranges::find(method.options, name, &OptionSchema::name) == method.options.end())
+      say_ignored("--" + name,
+                  "method " + method.name + " has no such option (" + methods_with(name) + " only)");
+  const auto is_png = [](const std::filesystem::path& path) { return extension_of(path) != ".exr"; };
+  if (arguments.exposure != 0.0 && std::ranges::none_of(arguments.images, is_png))
+    say_ignored("--exposure", "no PNG is written");
+  if (arguments.warm_up > 0 && arguments.stats.empty() && !arguments.common.verbose)
+    say_ignored("--warm-up", "times are in --stats and --verbose");
 }
 
 void say_stages(const RenderResult& result) {
@@ -69,7 +93,9 @@ void say_stages(const RenderResult& result) {
 void run(const Arguments& arguments) {
   RenderOptions options = checked_options(arguments);
   const ThreadLimit limit(arguments.common.threads);
+  say_what_is_ignored(arguments);
   const Scene scene = load(arguments.scene);
+  require_apart(arguments.outputs(), files_of(arguments.scene, scene));
   RenderResult result;
   {
     ProgressLine progress("rendering");
@@ -78,14 +104,18 @@ void run(const Arguments& arguments) {
   }
   for (const std::string& warning : result.warnings) complain("warning: " + warning);
   if (arguments.common.verbose) say_stages(result);
-  for (const auto& output : arguments.outputs) {
+  result.image.metadata = metadata_of(scene, arguments.scene.path.string(), result);
+  for (const auto& output : arguments.images) {
     if (extension_of(output) == ".exr")
       write_exr(output, result.image);
     else
       write_png(output, result.image, arguments.exposure);
+    say_written(arguments.common.verbose, output);
   }
-  if (!arguments.stats.empty())
+  if (!arguments.stats.empty()) {
     write_json(arguments.stats, stats_of(result, used_threads(arguments.common.threads)));
+    say_written(arguments.common.verbose, arguments.stats);
+  }
   if (!arguments.probe.empty())
     print(to_text(probe_pixel(scene, result, arguments.common.threads,
                               parse_pixel(arguments.probe, {options.width, options.height}))));
@@ -103,11 +133,10 @@ void add_render_command(CLI::App& app) {
       ->capture_default_str();
   command
       .add_option(
-          "-o,--output", arguments->outputs,
+          "-o,--output", arguments->images,
           "Image to write, PNG (sRGB) or EXR (all channels) by extension; - is PNG on standard output; "
           "may be repeated")
-      ->take_all()
-      ->expected(1)
+      ->allow_extra_args(false)  // one file each time
       ->type_name("FILE");
   command.add_option("--size", arguments->size, "Pixels, WIDTHxHEIGHT")
       ->capture_default_str()

@@ -7,7 +7,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/reports.h"
-#include "apps/cli/solid_volumes.h"
+#include "apps/cli/solids/solid_volumes.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
@@ -60,6 +60,23 @@ struct Volumes {
   bool good = true;
 };
 
+/// All that is written for lights of these names.
+std::vector<Output> outputs_of(const Arguments& arguments, const std::vector<std::string>& lights) {
+  std::vector<Output> outputs = {{"--report", arguments.report}};
+  for (const std::string& light : lights) {
+    outputs.push_back({"--umbra", file_of_light(arguments.umbra, light)});
+    outputs.push_back({"--penumbra", file_of_light(arguments.penumbra, light)});
+    outputs.push_back({"--sheets", file_of_light(arguments.sheets, light)});
+    outputs.push_back({"--level-file", file_of_light(arguments.level_file, light)});
+  }
+  return outputs;
+}
+
+void require_good(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs) {
+  for (const Output& output : outputs) require_writable(output.path);
+  require_apart(outputs, inputs);
+}
+
 void check(const Arguments& arguments) {
   if (arguments.only_report() && arguments.report.empty() && !arguments.check)
     throw UsageError("nothing to do; give --umbra, --penumbra, --sheets, --report or --check");
@@ -67,24 +84,19 @@ void check(const Arguments& arguments) {
     throw UsageError("--sheets are no solid; leave out --form solid");
   if (!arguments.solid() && (!arguments.level_file.empty() || !arguments.tolerance.empty()))
     throw UsageError("--level-file and --tolerance are for solids; add --form solid");
-  const std::pair<const char*, const std::filesystem::path*> meshes[] = {
-      {"--umbra", &arguments.umbra},
-      {"--penumbra", &arguments.penumbra},
-      {"--sheets", &arguments.sheets},
-      {"--level-file", &arguments.level_file}};
-  for (const auto& [option, path] : meshes) {
-    if (path->empty()) continue;
-    require_extension(option, *path, shadow_mesh_extensions(), false);
-    require_writable(*path);
-    for (const auto& [other, other_path] : meshes)
-      if (path != other_path && *path == *other_path)
-        throw UsageError(std::string(option) + " and " + other + " name the same file; choose two");
-  }
-  require_writable(arguments.report);
+  const std::vector<Output> outputs = outputs_of(arguments, {""});
+  for (const auto& [option, path] : outputs)
+    if (!path.empty() && option != "--report")
+      require_extension(option, path, shadow_mesh_extensions(), false);
+  require_good(outputs, {arguments.scene.path});
+  if (arguments.merge && arguments.report.empty() && !arguments.solid())
+    say_ignored("--merge", "files hold all casters anyway, and there is no --report");
 }
 
 void add_object(const Arguments& arguments, const SceneObject& object, std::size_t number,
-                const CircularLight& light, const VolumeOptions& options, Volumes& volumes) {
+                const CircularLight& light, VolumeOptions options, const Progress& progress,
+                Volumes& volumes) {
+  options.extrude.progress = part_of(progress, 0.0, arguments.check ? 0.5 : 1.0);
   const std::size_t faces = object.mesh.triangles().size();
   ShadowVolumes made = build_shadow_volumes(object.mesh, light, options);
   nlohmann::json report = classification_report(made.classes);
@@ -97,7 +109,8 @@ void add_object(const Arguments& arguments, const SceneObject& object, std::size
   if (options.umbra) report["umbra"] = shadow_report(made.umbra, faces);
   if (arguments.check) {
     StageClock clock;
-    const VolumeFindings findings = validate(object.mesh, light, made.umbra, made.penumbra, options.extrude);
+    const VolumeFindings findings = validate(object.mesh, light, made.umbra, made.penumbra, options.extrude,
+                                             {.progress = part_of(progress, 0.5, 1.0)});
     clock.finish("check");
     made.stages.push_back(clock.stages().front());
     report["check"] = check_report(findings);
@@ -125,9 +138,9 @@ Volumes build_volumes(const Arguments& arguments, const Scene& scene, const Circ
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (!scene.objects[i].casts) continue;
     options.extrude.object = static_cast<std::uint32_t>(i);
-    options.extrude.progress =
+    const Progress part =
         part_of(progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
-    add_object(arguments, scene.objects[i], i, light, options, volumes);
+    add_object(arguments, scene.objects[i], i, light, options, part, volumes);
   }
   if (volumes.objects.empty()) complain("warning: no object of the scene casts; the volumes are empty");
   return volumes;
@@ -143,6 +156,12 @@ void say(const nlohmann::json& objects) {
     }
 }
 
+/// Of a volume of casters.
+std::string why_empty(const std::string& volume) {
+  if (volume == "umbra") return "no convex or star-shaped part of a caster hides the whole light alone";
+  return "no caster has a face in front of the light";
+}
+
 /// Writes one light's volumes; returns its report. `light`: its name where several lights are written.
 nlohmann::json write(const Arguments& arguments, const Volumes& volumes, const std::string& light) {
   nlohmann::json report = {{"objects", volumes.objects}};
@@ -150,7 +169,13 @@ nlohmann::json write(const Arguments& arguments, const Volumes& volumes, const s
   const auto write_one = [&](const char* name, bool wanted, const std::filesystem::path& path,
                              const std::vector<ShadowMesh>& parts) {
     const ShadowMesh whole = merge(parts);
-    if (!path.empty()) write_shadow_mesh(file_of_light(path, light), whole);
+    if (!path.empty()) {
+      const std::filesystem::path file = file_of_light(path, light);
+      write_shadow_mesh(file, whole);
+      say_written(arguments.common.verbose, file);
+      if (whole.triangles.empty() && !parts.empty())
+        complain("warning: " + file.string() + " is empty: " + why_empty(name));
+    }
     if (arguments.merge && wanted && !parts.empty())
       report["scene"][name] = shadow_report(whole, volumes.caster_faces);
   };
@@ -200,18 +225,23 @@ void run(const Arguments& arguments) {
         scene.lights[k].shape,
         "penumbra volumes" +
             (lights.size() > 1 ? ", of light " + scene.lights[k].name + ", (see --light)" : "")));
+  std::vector<std::string> names;
+  for (const std::size_t k : lights) names.push_back(lights.size() > 1 ? scene.lights[k].name : "");
+  require_good(outputs_of(arguments, names), files_of(arguments.scene, scene));
   nlohmann::json reports = nlohmann::json::array();
   bool good = true;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const std::string name = lights.size() > 1 ? scene.lights[lights[i]].name : "";
+    const std::string& name = names[i];
     const SolidReport volumes = make_and_write(arguments, scene, scene.lights[lights[i]], circular[i], name);
     reports.push_back(volumes.json);
     if (arguments.check && arguments.report != "-")
       print((name.empty() ? "" : "light " + name + "\n") + volumes.findings);
     good = good && volumes.good;
   }
-  if (!arguments.report.empty())
+  if (!arguments.report.empty()) {
     write_json(arguments.report, lights.size() > 1 ? nlohmann::json{{"lights", reports}} : reports.front());
+    say_written(arguments.common.verbose, arguments.report);
+  }
   if (!good) throw SystemError("the volumes did not pass --check; please report the scene with this output");
 }
 

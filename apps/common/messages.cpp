@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace penumbra::apps {
@@ -19,10 +20,25 @@ void complain(const std::string& message) {
   std::fprintf(stderr, "%s\n", line.c_str());
 }
 
+void say_ignored(const std::string& option, const std::string& why) {
+  complain("warning: " + option + " has no effect: " + why);
+}
+
+std::string progress_text(const std::string& label, double fraction, double seconds) {
+  char percent[16];
+  std::snprintf(percent, sizeof percent, " %3.0f%%", 100.0 * fraction);
+  const double left = seconds * (1.0 - fraction) / fraction;
+  if (!(fraction >= 0.01) || seconds < 1.0 || left < 0.5) return label + percent;
+  const bool in_minutes = left >= 99.5;
+  return label + percent + ", " + std::to_string(std::lround(in_minutes ? left / 60.0 : left)) +
+         (in_minutes ? " min left" : " s left");
+}
+
 ProgressLine::ProgressLine(std::string label)
     : label_(std::move(label)),
       watched_(isatty(STDERR_FILENO) != 0),
-      next_(std::chrono::steady_clock::now() + kPatience) {}
+      start_(std::chrono::steady_clock::now()),
+      next_(start_ + kPatience) {}
 
 ProgressLine::~ProgressLine() {
   if (shown_) std::fputs("\r\033[K", stderr);
@@ -38,10 +54,13 @@ Progress ProgressLine::callback() {
 
 void ProgressLine::show(double fraction) {
   const auto now = std::chrono::steady_clock::now();
+  if (fraction < fraction_) start_ = now;  // another one of several
+  fraction_ = fraction;
   if (now < next_) return;
   next_ = now + kPeriod;
   shown_ = true;
-  std::fprintf(stderr, "\r%s %3.0f%%\033[K", label_.c_str(), 100.0 * fraction);
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  std::fprintf(stderr, "\r%s\033[K", progress_text(label_, fraction, seconds).c_str());
   std::fflush(stderr);
 }
 

@@ -11,7 +11,14 @@ namespace penumbra::apps {
 /// "penumbra: message", as one line whatever the message holds.
 void complain(const std::string& message);
 
-/// A percentage that overwrites itself, on a terminal only. Goes away when destroyed.
+/// A warning that what was given has no effect, and why.
+void say_ignored(const std::string& option, const std::string& why);
+
+/// "rendering  42%, 12 s left": what is done of something that has taken so many seconds. No estimate where it would be
+/// idle or a guess.
+std::string progress_text(const std::string& label, double fraction, double seconds);
+
+/// A percentage and an estimate that overwrite themselves, on a terminal only. Goes away when destroyed.
 class ProgressLine {
  public:
   explicit ProgressLine(std::string label);
@@ -28,7 +35,8 @@ class ProgressLine {
   std::string label_;
   bool watched_;
   bool shown_ = false;
-  std::chrono::steady_clock::time_point next_;
+  double fraction_ = 0.0;
+  std::chrono::steady_clock::time_point start_, next_;
 };
 
 }  // namespace penumbra::apps

@@ -8,24 +8,20 @@
 namespace penumbra::apps {
 namespace {
 
-/// The methods that have an option, in their order.
-std::vector<const MethodInfo*> methods_with(const OptionSchema& option) {
+/// In their order.
+std::vector<const MethodInfo*> find_methods_with(const std::string& option) {
   std::vector<const MethodInfo*> found;
   for (const MethodInfo& method : methods())
-    if (std::any_of(method.options.begin(), method.options.end(),
-                    [&](const OptionSchema& each) { return each.name == option.name; }))
+    if (std::ranges::find(method.options, option, &OptionSchema::name) != method.options.end())
       found.push_back(&method);
   return found;
 }
 
 /// The heading in --help: a method with its summary, or several names.
 std::string group_of(const OptionSchema& option) {
-  const std::vector<const MethodInfo*> with = methods_with(option);
+  const std::vector<const MethodInfo*> with = find_methods_with(option.name);
   if (with.size() == 1) return "Method " + with.front()->name + ": " + with.front()->summary;
-  std::string names;
-  for (std::size_t i = 0; i < with.size(); ++i)
-    names += (i == 0 ? "" : (i + 1 == with.size() ? " and " : ", ")) + with[i]->name;
-  return "Methods " + names;
+  return "Methods " + methods_with(option.name);
 }
 
 const char* type_of(const OptionSchema& option) {
@@ -44,7 +40,7 @@ void add_method_options(CLI::App& command, OptionValues& values) {
       try {
         values[option.name] = option.parse(text);
       } catch (const UsageError&) {
-        throw CLI::ValidationError(flag, "'" + text + "' is not allowed; give " + option.allowed());
+        throw CLI::ValidationError(flag, option.refusal(text));
       }
     };
     command.add_option_function<std::string>(flag, set, option.help + " (" + option.allowed() + ")")
@@ -52,6 +48,14 @@ void add_method_options(CLI::App& command, OptionValues& values) {
         ->type_name(type_of(option))
         ->group(group_of(option));
   }
+}
+
+std::string methods_with(const std::string& option) {
+  const std::vector<const MethodInfo*> with = find_methods_with(option);
+  std::string names;
+  for (std::size_t i = 0; i < with.size(); ++i)
+    names += (i == 0 ? "" : (i + 1 == with.size() ? " and " : ", ")) + with[i]->name;
+  return names;
 }
 
 std::string method_words() {

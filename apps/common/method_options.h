@@ -15,6 +15,9 @@ namespace penumbra::apps {
 /// `values`, which must outlive the command. Options of methods that are not used have no effect.
 void add_method_options(CLI::App& command, OptionValues& values);
 
+/// "rays and reference": the methods that have an option of this name.
+std::string methods_with(const std::string& option);
+
 /// "silhouette, reference, ...": what --method takes.
 std::string method_words();
 

@@ -1,15 +1,19 @@
 #include "apps/common/options.h"
 
 #include <tbb/global_control.h>
+#include <unistd.h>
 
 #include <thread>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
+#include <iostream>
+#include <iterator>
 #include <optional>
 
 #include "apps/common/messages.h"
+#include "apps/common/outputs.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/io/polygon_soup.h"
 
@@ -66,15 +70,36 @@ void add_strict_option(CLI::App& command, SceneInput& input) {
 }
 
 void add_scene_input(CLI::App& command, SceneInput& input) {
-  command.add_option("SCENE", input.path, "Scene file (*.json) or bare mesh (" + mesh_format_names() + ")")
+  command
+      .add_option("SCENE", input.path,
+                  "Scene file (*.json) or bare mesh (" + mesh_format_names() + "); - is standard input")
       ->required();
   add_strict_option(command, input);
 }
 
+std::string read_standard_input() {
+  if (isatty(STDIN_FILENO)) complain("reading standard input; end it with Ctrl-D");
+  std::string bytes{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
+  if (bytes.empty()) throw SceneError(std::string(kStandardInput) + ": is empty; give it a scene or a mesh");
+  return bytes;
+}
+
 Scene load(const SceneInput& input) {
-  LoadedScene loaded = load_scene(input.path, {.strict = input.strict});
+  const SceneOptions options = {.strict = input.strict};
+  LoadedScene loaded = is_standard(input.path)
+                           ? parse_scene_or_mesh(read_standard_input(), "", kStandardInput, options)
+                           : load_scene(input.path, options);
   for (const std::string& warning : loaded.warnings) complain("warning: " + warning);
   return std::move(loaded.scene);
+}
+
+std::vector<std::filesystem::path> files_of(const SceneInput& input, const Scene& scene) {
+  std::vector<std::filesystem::path> files = {input.path};
+  if (is_standard(input.path)) files.clear();
+  const std::filesystem::path folder = extension_of(input.path) == ".json" ? input.path.parent_path() : "";
+  for (const SceneObject& object : scene.objects)
+    if (!object.name.empty()) files.push_back(folder / object.name);
+  return files;
 }
 
 void add_exposure_option(CLI::App& command, double& stops, const std::string& help) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "penumbra/render/scene/scene.h"
 
@@ -40,8 +41,13 @@ struct SceneInput {
 void add_strict_option(CLI::App& command, SceneInput& input);
 /// SCENE as a positional argument, and --strict.
 void add_scene_input(CLI::App& command, SceneInput& input);
-/// Loads the scene; warnings go to standard error.
+inline constexpr const char* kStandardInput = "standard input";
+/// All of it. Throws SceneError where it is empty.
+std::string read_standard_input();
+/// Loads the scene, from standard input where the path is "-"; warnings go to standard error.
 Scene load(const SceneInput& input);
+/// The scene's file and those of its meshes.
+std::vector<std::filesystem::path> files_of(const SceneInput& input, const Scene& scene);
 
 /// --exposure, in stops.
 void add_exposure_option(CLI::App& command, double& stops, const std::string& help);

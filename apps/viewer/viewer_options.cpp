@@ -7,6 +7,7 @@
 #include "apps/common/method_options.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
+#include "apps/common/parse_errors.h"
 #include "apps/viewer/viewer.h"
 #include "penumbra/mesh/error.h"
 
@@ -125,7 +126,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
     app.exit(e, std::cout, std::cerr);
     return apps::kFine;
   } catch (const CLI::ParseError& e) {
-    return apps::fail(apps::kBadUsage, std::string(e.what()) + "; see penumbra-viewer --help");
+    return apps::fail(apps::kBadUsage, apps::explain(app, e, {argv + 1, argv + argc}));
   }
   check(options, words, app.count("--method") > 0, app.count("--view") > 0);
   return show(std::move(options));

@@ -101,7 +101,10 @@ Triangulation triangulate(const PolygonSoup& soup) {
 }
 
 LoadedMesh load_mesh(const fs::path& path, const BuildOptions& options) {
-  const PolygonSoup soup = read_polygon_soup(path);
+  return load_mesh(read_polygon_soup(path), path.string(), options);
+}
+
+LoadedMesh load_mesh(const PolygonSoup& soup, const std::string& name, const BuildOptions& options) {
   const Triangulation triangulation = triangulate(soup);
   LoadedMesh loaded{.mesh = TriangleMesh::build(soup.positions, triangulation.triangles, options),
                     .polygons = triangulation.report,
@@ -109,7 +112,7 @@ LoadedMesh load_mesh(const fs::path& path, const BuildOptions& options) {
                     .materials = soup.materials,
                     .ignored = soup.ignored};
   if (loaded.mesh.empty()) {
-    detail::fail_reading(path.string(), "", "every face in it has fewer than three distinct corners",
+    detail::fail_reading(name, "", "every face in it has fewer than three distinct corners",
                          "export the mesh at another scale or precision");
   }
   return loaded;

@@ -105,6 +105,8 @@ struct LoadedMesh {
 /// read_polygon_soup, triangulate and TriangleMesh::build in one. Throws MeshError as they do, and where no
 /// face is left.
 LoadedMesh load_mesh(const std::filesystem::path& path, const BuildOptions& options = {});
+/// The same of a file that was read; `name` is used in messages.
+LoadedMesh load_mesh(const PolygonSoup& soup, const std::string& name, const BuildOptions& options = {});
 /// The mesh of load_mesh alone.
 TriangleMesh read_mesh(const std::filesystem::path& path, const BuildOptions& options = {});
 

@@ -47,15 +47,37 @@ void write_directly(const fs::path& path, const WriteCallback& write) {
   write_stream(out, path.string(), write);
 }
 
-/// A file that is removed unless it was renamed to its final name.
+/// Paths of temporary files, as a signal handler may read them: they stay where they are. Of more at one time than
+/// there are places the rest is not removed by remove_unfinished_files.
+struct Unfinished {
+  enum State : int { kFree, kClaimed, kFilled };
+  std::atomic<int> state{kFree};
+  char path[4096];
+};
+Unfinished unfinished[16];
+
+Unfinished* remember(const std::string& path) {
+  for (Unfinished& place : unfinished) {
+    int free = Unfinished::kFree;
+    if (path.size() >= sizeof place.path || !place.state.compare_exchange_strong(free, Unfinished::kClaimed))
+      continue;
+    path.copy(place.path, path.size());
+    place.path[path.size()] = '\0';
+    place.state = Unfinished::kFilled;
+    return &place;
+  }
+  return nullptr;
+}
+
+/// A file that is removed unless it was renamed to its final name. Its own name is short: the final one may be as long
+/// as the file system allows.
 class Temporary {
  public:
   explicit Temporary(const fs::path& final_path) : final_path_(final_path) {
     static std::atomic<unsigned> count = 0;
-    std::string name = ".";
-    name.append(final_path.filename().string()).append(".").append(std::to_string(::getpid()));
-    name.append("-").append(std::to_string(count++)).append(".tmp");
-    path_ = final_path.parent_path() / name;
+    path_ = final_path.parent_path() /
+            (".penumbra-" + std::to_string(::getpid()) + "-" + std::to_string(count++) + ".tmp");
+    place_ = remember(path_.string());
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
@@ -64,6 +86,7 @@ class Temporary {
       std::error_code ignored;
       fs::remove(path_, ignored);
     }
+    if (place_ != nullptr) place_->state = Unfinished::kFree;
   }
 
   const fs::path& path() const { return path_; }
@@ -78,6 +101,7 @@ class Temporary {
 
  private:
   fs::path final_path_, path_;
+  Unfinished* place_ = nullptr;
   bool kept_ = false;
 };
 
@@ -107,6 +131,23 @@ void write_and_rename(const fs::path& path, bool exists, const WriteCallback& wr
 
 }  // namespace
 
+fs::path written_path(const fs::path& path) {
+  // As many links in a row as Linux follows.
+  fs::path target = path;
+  std::error_code error;
+  for (int i = 0; i < 40 && fs::is_symlink(fs::symlink_status(target, error)); ++i) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) return path;
+    target = target.parent_path() / next;  // an absolute one stands alone
+  }
+  return target;
+}
+
+void remove_unfinished_files() noexcept {
+  for (const Unfinished& place : unfinished)
+    if (place.state == Unfinished::kFilled) ::unlink(place.path);
+}
+
 void write_file(const fs::path& path, const WriteCallback& write) {
   if (path == "-") {
     write_stream(std::cout, "standard output", write);
@@ -121,11 +162,9 @@ void write_file(const fs::path& path, const WriteCallback& write) {
       if (path.filename().empty()) {
         fail(path.string().empty() ? "output" : path.string(), "no file name given");
       }
-      return write_and_rename(path, false, write);
-    case fs::file_type::regular: {
-      const fs::path target = fs::canonical(path, error);  // replace what a link names, not the link
-      return write_and_rename(error ? path : target, true, write);
-    }
+      return write_and_rename(written_path(path), false, write);
+    case fs::file_type::regular:
+      return write_and_rename(written_path(path), true, write);
     case fs::file_type::none:
       fail(path.string(), error.message());
     default:

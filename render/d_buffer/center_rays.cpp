@@ -86,20 +86,6 @@ void aim(const ReceiverLanes& from, const SeenDisk& disk, RayPacket& packet) {
   }
 }
 
-/// The chord that a receiver's horizon cuts off the disk, as its signed distance from the center in radii: 1
-/// and more where all of the disk is above, -1 behind the light.
-PENUMBRA_INLINE double horizon_chord(const ReceiverLanes& from, std::size_t k, const SeenDisk& disk) {
-  const AboveHorizon seen = above_horizon_of(from, k, disk);
-  const double reach = disk.radius * seen.size;
-  const double inside = seen.height / std::max(reach, 1e-300);
-  return seen.behind ? -1.0 : seen.height >= reach ? 1.0 : inside;
-}
-
-/// What lies beyond a chord.
-float open_fraction(double delta) {
-  return delta >= 1.0 ? 1.0f : delta > -1.0 ? static_cast<float>(half_plane_area(delta)) : 0.0f;
-}
-
 }  // namespace
 
 CenterRays::CenterRays(const Receivers& surface, const RayScene& rays)
@@ -173,48 +159,60 @@ DiskPoints sunflower(double turn) {
   return out;
 }
 
-/// One pattern for each of three by three pixels, each turned against the others.
-std::array<DiskPoints, 9> interleaved_points() {
-  std::array<DiskPoints, 9> out;
+/// Each turned against the others.
+std::array<DiskPoints, CenterRays::kPatterns> interleaved_points() {
+  std::array<DiskPoints, CenterRays::kPatterns> out;
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = sunflower(2.0 * std::numbers::pi * static_cast<double>(i) / 9.0);
+    out[i] = sunflower(2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(out.size()));
   return out;
 }
 
 }  // namespace
 
-std::vector<float> CenterRays::sampled_visibility(const CircularLight& light,
-                                                  std::span<const std::uint32_t> pixels) const {
+SeenPoints CenterRays::look(const CircularLight& light, std::uint32_t pixel, std::size_t pattern) const {
+  static const auto patterns = interleaved_points();
+  const std::uint32_t at = place_[pixel];
+  SeenPoints out{patterns[pattern]};
   const LightFrame axes = light_frame(light);
   const Vec3 u = light.radius * axes.u, v = light.radius * axes.v;
-  const SeenDisk disk(light);
-  const auto patterns = interleaved_points();
-  const auto look = [&](std::uint32_t pixel) {
-    const std::uint32_t at = place_[pixel];
-    const DiskPoints& points = patterns[pixel / width_ % 3 * 3 + pixel % width_ % 3];
-    const Vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]);
-    const float open = open_fraction(horizon_chord(lanes(at), 0, disk));
-    if (!(open > 0.0f)) return 0.0f;
-    RayPacket packet;
-    packet.endless = light.is_distant();
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      const Vec3 way = disk.center - disk.weight * from + double{points[k].x} * u + double{points[k].y} * v;
-      packet.set(k, {{from, object_[at], face_[at]}, way});
-      packet.wanted[k] = glm::dot(way, n) > 0.0 ? -1 : 0;
-    }
-    // They graze casters: a tenth faster than as coherent rays.
-    detail::find_occluded(rays_, packet, detail::Coherence::kIncoherent);
-    int traced = 0, seen = 0;
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      traced += packet.wanted[k] != 0;
-      seen += packet.wanted[k] && !packet.is_occluded(k);
-    }
-    return traced > 0 ? open * static_cast<float>(seen) / static_cast<float>(traced) : open;
-  };
-  std::vector<float> out(pixels.size());
+  const Vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]), center = way_to_center(light, from);
+  if (glm::dot(center, axes.w) >= 0.0) return out;
+  RayPacket packet;
+  packet.endless = light.is_distant();
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Vec3 way = center + double{out.points[k].x} * u + double{out.points[k].y} * v;
+    packet.set(k, {{from, object_[at], face_[at]}, way});
+    packet.wanted[k] = glm::dot(way, n) > 0.0 ? -1 : 0;
+  }
+  // They graze casters: a tenth faster than as coherent rays.
+  detail::find_occluded(rays_, packet, detail::Coherence::kIncoherent);
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const auto bit = static_cast<std::uint16_t>(1u << k);
+    if (packet.wanted[k]) out.traced |= bit;
+    if (packet.wanted[k] && !packet.is_occluded(k)) out.seen |= bit;
+  }
+  return out;
+}
+
+std::vector<SeenPoints> CenterRays::seen_points(const CircularLight& light,
+                                                std::span<const std::uint32_t> pixels) const {
+  std::vector<SeenPoints> out(pixels.size());
   rays_.arena().execute([&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.size(), 8), [&](const auto& range) {
-      for (std::size_t i = range.begin(); i < range.end(); ++i) out[i] = look(pixels[i]);
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        out[i] = look(light, pixels[i], pixels[i] / width_ % 3 * 3 + pixels[i] % width_ % 3);
+    });
+  });
+  return out;
+}
+
+std::vector<SeenPoints> CenterRays::all_seen_points(const CircularLight& light,
+                                                    std::span<const std::uint32_t> pixels) const {
+  std::vector<SeenPoints> out(kPatterns * pixels.size());
+  rays_.arena().execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 8), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        out[i] = look(light, pixels[i / kPatterns], i % kPatterns);
     });
   });
   return out;

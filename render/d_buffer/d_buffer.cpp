@@ -154,7 +154,7 @@ DBufferFrame DBuffer::Impl::render(const CircularLight& light, const DBufferOpti
   clock.finish("entries");
   report(progress, 0.6);
 
-  frame.visibility = shading.shade(light, view, tiles, *layers, passes.records(), options);
+  frame.visibility = shading.shade(light, view, tiles, *layers, {geometry, passes.records()}, options);
   clock.finish("visibility");
   gl::require_no_error(gl, "rendering the D-buffer");
   const auto left_out = std::ranges::count_if(casters, &detail::DBufferCaster::cannot_occlude);

@@ -115,9 +115,13 @@ void FillPasses::draw_casters(const Target& target, const DBufferView& view) {
 void FillPasses::draw_read_casters(const Target& target, const DBufferView& view,
                                    const ReceiverGrid& receivers) {
   set_target(occluder_program_, target, view);
-  const std::vector<std::uint32_t> read = triangles_before_hidden(casters_, points_, receivers);
-  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, read_indices_, read, GL_STREAM_DRAW);
-  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(read.size()), GL_UNSIGNED_INT, nullptr);
+  const ReadTriangles read = triangles_before_hidden(casters_, view, points_, receivers);
+  if (!read.more.empty()) {
+    points_.insert(points_.end(), read.more.begin(), read.more.end());
+    fill(gl_, GL_ARRAY_BUFFER, caster_points_, points_, GL_STREAM_DRAW);
+  }
+  fill(gl_, GL_ELEMENT_ARRAY_BUFFER, read_indices_, read.indices, GL_STREAM_DRAW);
+  gl_.DrawElements(GL_TRIANGLES, static_cast<GLsizei>(read.indices.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 /// The first surface of all; then the last of those that face the light's center.

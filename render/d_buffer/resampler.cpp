@@ -29,9 +29,12 @@ constexpr double kSameSurfaceSlope = 0.5;
 constexpr float kNoiseExplains = 2.0f;
 /// Samples that differ by more across a pixel, or bend by more at it, are not averaged: that is no noise.
 constexpr float kNoAverage = 0.3f;
-/// Root mean square error of one sample of CenterRays::sampled_visibility where one edge crosses the disk,
+/// Root mean square error of one sample of CenterRays::seen_points where one edge crosses the disk,
 /// and of the mean of nine neighbors, whose patterns complement each other. Both are measured.
+constexpr int kAllSamples = 9;
 constexpr float kNoiseOfOne = 0.037f, kNoiseOfNine = 0.007f;
+/// Where the two means of mean_sample differ by more the pixel is sampled at all points. Smaller: slower.
+constexpr float kMostBend = 0.05f;
 /// With less of the disk above the horizon than this, visibility counts as 1: a sliver is all rounding.
 constexpr float kSliver = 0.05f;
 
@@ -69,8 +72,43 @@ bool is_one_surface(const ImageSurface& image, std::uint32_t i, std::uint32_t j,
          std::abs(glm::dot(n, way)) <= kSameSurfaceSlope * glm::length(way);
 }
 
+template <class F>
+void for_all_around(const ImageSurface& image, std::uint32_t i, const F& visit) {
+  const int width = image.receivers.width, height = image.receivers.height;
+  const int column = static_cast<int>(i) % width, row = static_cast<int>(i) / width;
+  for (int y = std::max(row - 1, 0); y <= std::min(row + 1, height - 1); ++y)
+    for (int x = std::max(column - 1, 0); x <= std::min(column + 1, width - 1); ++x)
+      if (x != column || y != row) visit(static_cast<std::uint32_t>(y * width + x));
+}
+
+/// Calls with pixels on opposite sides of one, of the eight around it.
+template <class F>
+void for_opposite_pairs(const ImageSurface& image, std::uint32_t i, const F& visit) {
+  const auto width = static_cast<std::uint32_t>(image.receivers.width);
+  const bool has_rows = i >= width && image.receivers.size() - i > width;
+  const bool has_columns = i % width > 0 && (i + 1) % width > 0;
+  if (has_columns) visit(i - 1, i + 1);
+  if (has_rows) visit(i - width, i + width);
+  if (!has_rows || !has_columns) return;
+  visit(i - width - 1, i + width + 1);
+  visit(i - width + 1, i + width - 1);
+}
+
+/// Of its four neighbors.
+int neighbors_on_surface(const ImageSurface& image, std::uint32_t i) {
+  int count = 0;
+  for_neighbors(image, i, [&](std::uint32_t j) { count += is_one_surface(image, i, j, kSameSurfaceCosine); });
+  return count;
+}
+
+bool is_at_border(const ImageSurface& image, std::uint32_t i) {
+  int pairs = 0;
+  for_opposite_pairs(image, i, [&](std::uint32_t, std::uint32_t) { ++pairs; });
+  return pairs < 4;
+}
+
 float noise_of_mean(int samples) {
-  return samples == 9 ? kNoiseOfNine : kNoiseOfOne / std::sqrt(static_cast<float>(samples));
+  return samples == kAllSamples ? kNoiseOfNine : kNoiseOfOne / std::sqrt(static_cast<float>(samples));
 }
 
 /// Visibility as a part of what is above the horizon.
@@ -92,34 +130,26 @@ std::uint32_t beyond(const ImageSurface& image, std::uint32_t i, std::uint32_t j
 void Resampler::begin() {
   share_.resize(visibility_.size());
   sample_.assign(visibility_.size(), kNoSample);
-  reason_.assign(visibility_.size(), kNotSampled);
+  correction_.resize(visibility_.size());
+  for (auto* flags : {&denies_, &is_dark_, &is_lit_, &is_asked_, &is_thorough_})
+    flags->assign(visibility_.size(), 0);
   sampled_.clear();
-  before_ = 0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, share_.size(), 8192), [&](const auto& range) {
     for (std::size_t i = range.begin(); i < range.end(); ++i)
       share_[i] = share_of(image_.open[i], visibility_[i]);
   });
 }
 
-std::vector<std::uint32_t> Resampler::find_first(std::span<const std::uint32_t> always,
-                                                 std::span<const std::uint32_t> suspects) {
+std::vector<std::uint32_t> Resampler::find_first(std::span<const std::uint32_t> always) const {
   tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
   tbb::parallel_for(tbb::blocked_range<int>(0, image_.receivers.height, 16), [&](const auto& rows) {
     for (int y = rows.begin(); y < rows.end(); ++y) find_in_row(y, parts.local());
   });
-  std::vector<std::uint32_t> out(always.begin(), always.end());
+  std::vector<std::uint32_t> out = probe_pixels();
+  out.insert(out.end(), always.begin(), always.end());
   for (const auto& part : parts) out.insert(out.end(), part.begin(), part.end());
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
-  for (const std::uint32_t i : out) reason_[i] = kContradiction;
-  std::vector<std::uint32_t> others = probe_pixels();
-  others.insert(others.end(), suspects.begin(), suspects.end());
-  for (const std::uint32_t i : others) {
-    if (reason_[i] != kNotSampled) continue;
-    reason_[i] = kProbe;
-    out.push_back(i);
-  }
-  std::sort(out.begin(), out.end());
   return out;
 }
 
@@ -163,56 +193,115 @@ bool Resampler::is_discontinuity(std::uint32_t i, std::uint32_t j) const {
   return is_one_surface(image_, i, j, kSameSurfaceCosine);
 }
 
+void Resampler::take_sample(std::uint32_t pixel, const RaySample& sample) {
+  sample_[pixel] = sample.visibility;
+  correction_[pixel] = sample.visibility - by_entries(pixel);
+  denies_[pixel] = sample.denies;
+  is_dark_[pixel] = sample.is_dark;
+  is_lit_[pixel] = sample.is_lit;
+  is_asked_[pixel] = 1;
+}
+
 std::vector<std::uint32_t> Resampler::take(std::span<const std::uint32_t> pixels,
-                                           std::span<const float> samples) {
-  for (std::size_t k = 0; k < pixels.size(); ++k) sample_[pixels[k]] = samples[k];
-  const std::size_t again = before_;
-  before_ = sampled_.size();
+                                           std::span<const RaySample> samples) {
+  for (std::size_t k = 0; k < pixels.size(); ++k) take_sample(pixels[k], samples[k]);
   sampled_.insert(sampled_.end(), pixels.begin(), pixels.end());
-  denied_.resize(sampled_.size() - again);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, denied_.size(), 256), [&](const auto& range) {
-    for (std::size_t k = range.begin(); k < range.end(); ++k)
-      denied_[k] = difference(sampled_[again + k], mean_sample(sampled_[again + k])) > 1.0f;
-  });
   std::vector<std::uint32_t> next;
-  for (std::size_t k = 0; k < denied_.size(); ++k) {
-    if (!denied_[k]) continue;
-    const std::uint32_t i = sampled_[again + k];
-    for_neighbors(image_, i, [&](std::uint32_t j) {
-      if (reason_[j] != kNotSampled || !is_one_surface(image_, i, j, kSameSurfaceCosine)) return;
-      reason_[j] = reason_[i];
+  for (const std::uint32_t i : pixels) {
+    if (!denies_[i]) continue;
+    for_all_around(image_, i, [&](std::uint32_t j) {
+      if (is_asked_[j] || !is_one_surface(image_, i, j, kSameSurfaceCosine)) return;
+      is_asked_[j] = 1;
       next.push_back(j);
     });
   }
+  std::sort(next.begin(), next.end());
   return next;
 }
 
+template <class Value>
+Resampler::Mean Resampler::mean_of(std::uint32_t i, const Value& value) const {
+  const float middle = value(i);
+  bool dark = is_dark_[i], lit = is_lit_[i];
+  Mean mean{middle, std::abs(correction_[i]), 1};
+  float sum = middle, open = image_.open[i];
+  for_opposite_pairs(image_, i, [&](std::uint32_t before, std::uint32_t after) {
+    if (sample_[before] == kNoSample || sample_[after] == kNoSample) return;
+    const float one = value(before), two = value(after);
+    if (std::abs(0.5f * (one + two) - middle) > kNoAverage || std::abs(one - two) > kNoAverage) return;
+    if (!is_one_surface(image_, i, before, kFlatCosine) || !is_one_surface(image_, i, after, kFlatCosine))
+      return;
+    sum += one + two;
+    open += image_.open[before] + image_.open[after];
+    mean.correction += std::abs(correction_[before]) + std::abs(correction_[after]);
+    mean.samples += 2;
+    dark = dark && is_dark_[before] && is_dark_[after];
+    lit = lit && is_lit_[before] && is_lit_[after];
+  });
+  mean.visibility = open > 0.0f ? sum * image_.open[i] / open : 0.0f;
+  mean.correction /= static_cast<float>(mean.samples);
+  mean.is_uniform = dark || lit;
+  return mean;
+}
+
 Resampler::Mean Resampler::mean_sample(std::uint32_t i) const {
-  const auto width = static_cast<std::uint32_t>(image_.receivers.width);
-  if (i < width || i + width >= sample_.size() || i % width == 0 || i % width == width - 1)
-    return {sample_[i], by_entries(i), 1};
-  float seen = sample_[i], open = image_.open[i], said = by_entries(i);
-  int samples = 1;
-  for (const std::uint32_t d : {1u, width - 1, width, width + 1}) {
-    if (sample_[i - d] == kNoSample || sample_[i + d] == kNoSample) continue;
-    if (!is_one_surface(image_, i, i - d, kFlatCosine) || !is_one_surface(image_, i, i + d, kFlatCosine))
-      continue;
-    const float before = sample_[i - d], after = sample_[i + d];
-    if (std::abs(0.5f * (before + after) - sample_[i]) > kNoAverage || std::abs(before - after) > kNoAverage)
-      continue;
-    seen += sample_[i - d] + sample_[i + d];
-    open += image_.open[i - d] + image_.open[i + d];
-    said += by_entries(i - d) + by_entries(i + d);
-    samples += 2;
+  if (is_thorough_[i]) return {sample_[i], 0.0f, kAllSamples, is_dark_[i] || is_lit_[i]};
+  Mean by_rays = mean_of(i, [&](std::uint32_t k) { return sample_[k]; });
+  if (by_rays.is_uniform && by_rays.samples == kAllSamples) {
+    by_rays.visibility = is_dark_[i] ? 0.0f : image_.open[i];
+    return by_rays;
   }
-  const float scale = open > 0.0f ? image_.open[i] / open : 0.0f;
-  return {scale * seen, scale * said, samples};
+  Mean corrected = mean_of(i, [&](std::uint32_t k) { return correction_[k]; });
+  corrected.visibility += by_entries(i);
+  const float bend = std::abs(corrected.visibility - by_rays.visibility);
+  const bool is_near =
+      std::abs(corrected.visibility - sample_[i]) < std::abs(by_rays.visibility - sample_[i]);
+  Mean mean = is_near && bend > 2.0f * corrected.correction ? corrected : by_rays;
+  mean.bend = bend;
+  return mean;
+}
+
+bool Resampler::is_denied_around(std::uint32_t i) const {
+  bool denied = denies_[i];
+  for_all_around(image_, i, [&](std::uint32_t k) { denied = denied || denies_[k]; });
+  return denied;
 }
 
 float Resampler::difference(std::uint32_t i, const Mean& mean) const {
-  float most = std::abs(mean.visibility - by_entries(i));
-  if (reason_[i] == kProbe) most = std::min(most, std::abs(mean.visibility - mean.by_entries));
-  return most / (kNoiseExplains * noise_of_mean(mean.samples));
+  if (!(is_thorough_[i] ? denies_[i] : is_denied_around(i))) return 0.0f;
+  return std::abs(mean.visibility - by_entries(i)) / (kNoiseExplains * noise_of_mean(mean.samples));
+}
+
+/// 0 where half of what noise explains is more than the difference, 1 where all of it is less.
+float Resampler::weight_of(std::uint32_t i, const Mean& mean) const {
+  const float difference = this->difference(i, mean);
+  if (mean.is_uniform && mean.samples == kAllSamples) return difference > 0.0f ? 1.0f : 0.0f;
+  return std::clamp(2.0f * difference - 1.0f, 0.0f, 1.0f);
+}
+
+bool Resampler::is_doubtful(std::uint32_t i) const {
+  const Mean mean = mean_sample(i);
+  const float weight = weight_of(i, mean);
+  if (!(weight > 0.0f)) return false;
+  if (mean.samples == kAllSamples) return mean.bend > kMostBend;
+  return weight < 1.0f || is_at_border(image_, i) || neighbors_on_surface(image_, i) == 4;
+}
+
+void Resampler::sample_thoroughly(const SampleVisibility& sample) {
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> parts;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sampled_.size(), 512), [&](const auto& range) {
+    for (std::size_t k = range.begin(); k < range.end(); ++k) {
+      if (is_doubtful(sampled_[k])) parts.local().push_back(sampled_[k]);
+    }
+  });
+  std::vector<std::uint32_t> pixels;
+  for (const auto& part : parts) pixels.insert(pixels.end(), part.begin(), part.end());
+  std::sort(pixels.begin(), pixels.end());
+  const std::vector<RaySample> samples = sample(pixels, SamplePoints::kAll);
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    take_sample(pixels[k], samples[k]);
+    is_thorough_[pixels[k]] = 1;
+  }
 }
 
 void Resampler::settle() {
@@ -220,10 +309,7 @@ void Resampler::settle() {
     for (std::size_t k = range.begin(); k < range.end(); ++k) {
       const std::uint32_t i = sampled_[k];
       const Mean mean = mean_sample(i);
-      // Where a few samples about a probe pixel deny the entries, it is noise more often than not.
-      const float belief = mean.samples < 9 && reason_[i] == kProbe ? 0.5f : 1.0f;
-      const float weight = std::clamp(2.0f * belief * difference(i, mean) - 1.0f, 0.0f, 1.0f);
-      visibility_[i] += weight * (mean.visibility - visibility_[i]);
+      visibility_[i] += weight_of(i, mean) * (mean.visibility - visibility_[i]);
     }
   });
 }
@@ -232,10 +318,7 @@ std::vector<std::uint32_t> isolated_pixels(const ImageSurface& image) {
   std::vector<char> is_isolated(image.receivers.size());
   tbb::parallel_for(std::size_t{0}, is_isolated.size(), [&](std::size_t pixel) {
     const auto i = static_cast<std::uint32_t>(pixel);
-    int together = 0;
-    for_neighbors(image, i,
-                  [&](std::uint32_t j) { together += is_one_surface(image, i, j, kSameSurfaceCosine); });
-    is_isolated[pixel] = image.receivers.is_present(pixel) && together < 2;
+    is_isolated[pixel] = image.receivers.is_present(pixel) && neighbors_on_surface(image, i) < 2;
   });
   std::vector<std::uint32_t> out;
   for (std::uint32_t i = 0; i < is_isolated.size(); ++i)
@@ -244,13 +327,13 @@ std::vector<std::uint32_t> isolated_pixels(const ImageSurface& image) {
 }
 
 std::size_t Resampler::resample(const ImageSurface& image, std::span<const std::uint32_t> always,
-                                std::span<const std::uint32_t> suspects, const SampleVisibility& sample,
-                                std::span<float> visibility) {
+                                const SampleVisibility& sample, std::span<float> visibility) {
   image_ = image;
   visibility_ = visibility;
   begin();
-  for (std::vector<std::uint32_t> pixels = find_first(always, suspects); !pixels.empty();)
-    pixels = take(pixels, sample(pixels));
+  for (std::vector<std::uint32_t> pixels = find_first(always); !pixels.empty();)
+    pixels = take(pixels, sample(pixels, SamplePoints::kOwn));
+  sample_thoroughly(sample);
   settle();
   return sampled_.size();
 }

@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/light/disk_area.h"
@@ -36,17 +37,11 @@ bool is_known(const DBufferOptions& o, int targets) {
 
 }  // namespace
 
-/// In the middle between the largest V and the smallest marked one.
-std::vector<std::uint32_t> take_uncertain_pixels(std::span<float> output) {
-  constexpr float kOffset = kUncertainOffset;
-  constexpr float kMarked = 0.5f * (1.0f + kOffset);
-  std::vector<std::uint32_t> uncertain;
-  for (std::uint32_t i = 0; i < output.size(); ++i) {
-    if (output[i] < kMarked) continue;
-    output[i] -= kOffset;
-    uncertain.push_back(i);
-  }
-  return uncertain;
+std::vector<std::uint32_t> uncertain_pixels(std::span<const EntryUse> uses) {
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; 2 * i < uses.size(); ++i)
+    if (uses[2 * i].is_uncertain() || uses[2 * i + 1].is_uncertain()) out.push_back(i);
+  return out;
 }
 
 /// The shaders for one combination of options.
@@ -64,8 +59,7 @@ struct VisibilityPass::Programs {
                    {{"TARGETS", targets},
                     {"CONTENTS", static_cast<int>(contents)},
                     {"CURVE", static_cast<int>(curve)},
-                    {"ENTRIES", entries},
-                    {"UNCERTAIN_OFFSET", kUncertainOffset}}) {}
+                    {"ENTRIES", entries}}) {}
   bool fits(const DBufferOptions& options, int targets) const {
     return contents == options.contents && curve == options.curve && entries == options.entries &&
            known == is_known(options, targets) && target_count == targets;
@@ -97,6 +91,7 @@ void VisibilityPass::set_surface(const Receivers& surface, std::vector<std::uint
   surface_position_ = image_texture(gl_, GL_RGBA32F, width_, height_);
   surface_plane_ = image_texture(gl_, GL_RGBA32F, width_, height_);
   visibility_texture_ = image_texture(gl_, GL_R32F, width_, height_);
+  use_texture_ = image_texture(gl_, GL_RG32UI, width_, height_);
   mark_texture_ = image_texture(gl_, GL_DEPTH_COMPONENT32F, width_, height_);
   center_seen_ = image_texture(gl_, GL_R32F, width_, height_);
   center_rays_ = std::make_unique<CenterRays>(surface, rays);
@@ -246,40 +241,98 @@ void VisibilityPass::test_center_by_depth(const Programs& programs, const DBuffe
   gl_.Finish();
 }
 
-/// Step 8.
-void VisibilityPass::resample(const CircularLight& light, std::span<const std::uint32_t> uncertain,
-                              std::vector<float>& visibility) {
-  const auto sample = [&](std::span<const std::uint32_t> pixels) {
-    return center_rays_->sampled_visibility(light, pixels);
+/// Both passes draw into it; pixels that they leave out have none.
+void VisibilityPass::begin_uses() const {
+  constexpr GLuint kNone[4] = {0, 0, 0, 0};
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, *use_texture_, 0);
+  constexpr GLenum kBoth[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
+  gl_.DrawBuffers(2, kBoth);
+  gl_.ClearBufferuiv(GL_COLOR, 1, kNone);
+}
+
+std::vector<EntryUse> VisibilityPass::read_uses() const {
+  std::vector<EntryUse> out(2 * seen_.size());
+  gl_.ReadBuffer(GL_COLOR_ATTACHMENT1);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RG_INTEGER, GL_UNSIGNED_INT, out.data());
+  gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, 0, 0);
+  return out;
+}
+
+/// What rays find otherwise is added to what entries say, whose area is exact. But where fewer points are seen than are
+/// denied, or fewer are hidden, their own share has less noise.
+RaySample VisibilityPass::sample_of(std::uint32_t pixel, std::span<const SeenPoints> seen,
+                                    std::span<const EntryUse> uses, const EntryGeometry& geometry,
+                                    float by_entries) const {
+  const SeenEntries entries(geometry.records, uses.subspan(2 * std::size_t{pixel}, 2),
+                            Vec3(texels_.positions[pixel]), seen_[pixel] < 0.5f);
+  int traced = 0, lit = 0, more = 0, denied = 0;
+  for (const SeenPoints& s : seen)
+    for (unsigned k = 0; k < s.points.size(); ++k) {
+      if (!(s.traced >> k & 1)) continue;
+      const bool sees = s.seen >> k & 1, expected = entries.is_lit({s.points[k].x, s.points[k].y});
+      ++traced;
+      lit += int{sees};
+      more += int{sees} - int{expected};
+      denied += int{sees != expected};
+    }
+  RaySample out{by_entries, denied > 0, traced > 0 && lit == 0, traced > 0 && lit == traced};
+  if (denied == 0) return out;
+  const auto share = [&](int points) {
+    return open_[pixel] * static_cast<float>(points) / static_cast<float>(traced);
   };
-  resampled_ = resampler_.resample({surface(), open_}, isolated_, uncertain, sample, visibility);
+  out.visibility = denied >= std::min(lit, traced - lit)
+                       ? share(lit)
+                       : std::clamp(by_entries + share(more), 0.0f, open_[pixel]);
+  return out;
+}
+
+/// Step 8.
+void VisibilityPass::resample(const CircularLight& light, const EntryGeometry& geometry,
+                              std::vector<float>& visibility) {
+  const std::vector<EntryUse> uses = read_uses();
+  const auto sample = [&](std::span<const std::uint32_t> pixels, SamplePoints points) {
+    const bool all = points == SamplePoints::kAll;
+    const std::vector<SeenPoints> seen =
+        all ? center_rays_->all_seen_points(light, pixels) : center_rays_->seen_points(light, pixels);
+    const std::size_t of_one = all ? CenterRays::kPatterns : 1;
+    std::vector<RaySample> out(pixels.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 64), [&](const auto& range) {
+      for (std::size_t k = range.begin(); k < range.end(); ++k)
+        out[k] = sample_of(pixels[k], std::span(seen).subspan(k * of_one, of_one), uses, geometry,
+                           visibility[pixels[k]]);
+    });
+    return out;
+  };
+  std::vector<std::uint32_t> always = uncertain_pixels(uses);
+  always.insert(always.end(), isolated_.begin(), isolated_.end());
+  resampled_ = resampler_.resample({surface(), open_}, always, sample, visibility);
 }
 
 /// Two passes over the image: the first decides most pixels and marks the others by depth for the second.
 std::vector<float> VisibilityPass::shade(const CircularLight& light, const DBufferView& view,
                                          const std::vector<glm::vec2>& tiles, const DBufferLayers& layers,
-                                         GLuint records, const DBufferOptions& options) {
+                                         const DrawnEntries& entries, const DBufferOptions& options) {
   Programs& with = programs(view, options);
   upload_tiles(tiles);
   gl_.Viewport(0, 0, width_, height_);
-  if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, records);
+  if (options.center == CenterTest::kDepth) test_center_by_depth(with, view, layers, entries.records);
   const GLenum color = GL_COLOR_ATTACHMENT0;
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, color, GL_TEXTURE_2D, *visibility_texture_, 0);
   gl_.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, *mark_texture_, 0);
   gl_.DrawBuffers(with.known ? 0 : 1, &color);
   gl::require_complete_framebuffer(gl_, "shading from the D-buffer");
   gl_.DepthFunc(GL_ALWAYS);
-  shade_pixels(with.select, view, layers, records);
+  shade_pixels(with.select, view, layers, entries.records);
   gl_.DrawBuffers(1, &color);
+  if (resamples(options)) begin_uses();
   gl_.DepthFunc(GL_LESS);  // tiles lie at depth 0.5
-  shade_pixels(with.visibility, view, layers, records);
+  shade_pixels(with.visibility, view, layers, entries.records);
   gl_.Finish();
   std::vector<float> out(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   gl_.ReadBuffer(color);
   gl_.ReadPixels(0, 0, width_, height_, GL_RED, GL_FLOAT, out.data());
-  const std::vector<std::uint32_t> uncertain = take_uncertain_pixels(out);
   resampled_ = 0;
-  if (resamples(options)) resample(light, uncertain, out);
+  if (resamples(options)) resample(light, entries.geometry, out);
   return out;
 }
 

@@ -18,20 +18,21 @@
 #include "render/d_buffer/entries/tiles.h"
 #include "render/d_buffer/layers.h"
 #include "render/d_buffer/resampler.h"
+#include "render/d_buffer/seen_boundary.h"
 #include "render/d_buffer/view/receivers_in_light.h"
 #include "render/d_buffer/view/view.h"
 #include "render/receivers/receiver_middle.h"
 
 namespace penumbra::detail {
 
-/// How the visibility shader tells that a pixel's entries contradict what is known of the light's center: its
-/// output is then V + this, else V, and V lies in [0, 1]. The shader gets the number as UNCERTAIN_OFFSET; it
-/// must be at least 2.
-inline constexpr int kUncertainOffset = 2;
+/// Pixels whose entries contradict what is known of the light's center, ascending. `uses`: two a pixel. Cost O(pixels).
+std::vector<std::uint32_t> uncertain_pixels(std::span<const EntryUse> uses);
 
-/// Decodes the output of the visibility shader: `output` becomes V. Returns the pixels that were marked as
-/// uncertain, ascending. Cost O(pixels).
-std::vector<std::uint32_t> take_uncertain_pixels(std::span<float> output);
+/// The entries that step 6 has drawn, and their records in a buffer texture.
+struct DrawnEntries {
+  const EntryGeometry& geometry;
+  GLuint records;
+};
 
 class VisibilityPass {
  public:
@@ -57,11 +58,11 @@ class VisibilityPass {
   /// without entries is not known yet. `grid`: as from receiver_grid, or everywhere. Does not use OpenGL.
   std::vector<glm::vec2> tiles(const DBufferView& view, const ReceiverGrid& grid,
                                const EntryGeometry& geometry, const DBufferOptions& options) const;
-  /// Visibility of every pixel. `tiles`: as from this class; `records`: the buffer texture of
-  /// EntryGeometry::records. The framebuffer that is bound is used; its attachments are replaced.
+  /// Visibility of every pixel. `tiles`: as from this class. The framebuffer that is bound is used; its attachments are
+  /// replaced.
   std::vector<float> shade(const CircularLight& light, const DBufferView& view,
-                           const std::vector<glm::vec2>& tiles, const DBufferLayers& layers, GLuint records,
-                           const DBufferOptions& options);
+                           const std::vector<glm::vec2>& tiles, const DBufferLayers& layers,
+                           const DrawnEntries& entries, const DBufferOptions& options);
   /// How many pixels of the last image were sampled by rays (EntryCheck::kRays).
   std::size_t resampled() const { return resampled_; }
 
@@ -77,15 +78,18 @@ class VisibilityPass {
                             GLuint records);
   void shade_pixels(const gl::Program& program, const DBufferView& view, const DBufferLayers& layers,
                     GLuint records) const;
-  void resample(const CircularLight& light, std::span<const std::uint32_t> uncertain,
-                std::vector<float>& visibility);
+  void begin_uses() const;
+  std::vector<EntryUse> read_uses() const;
+  void resample(const CircularLight& light, const EntryGeometry& geometry, std::vector<float>& visibility);
+  RaySample sample_of(std::uint32_t pixel, std::span<const SeenPoints> seen, std::span<const EntryUse> uses,
+                      const EntryGeometry& geometry, float by_entries) const;
   void bind_textures(const gl::Program& program, const DBufferLayers& layers, GLuint records) const;
 
   const gl::Functions& gl_;
   int width_ = 0, height_ = 0;
   std::size_t resampled_ = 0;
   std::unique_ptr<gl::Object> surface_position_, surface_plane_, center_seen_, visibility_texture_,
-      mark_texture_;
+      use_texture_, mark_texture_;
   std::unique_ptr<CenterRays> center_rays_;
   /// What the caller's arrays held.
   std::vector<Vec3> points_, normals_;

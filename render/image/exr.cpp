@@ -6,11 +6,13 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <new>
+#include <string_view>
 
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
@@ -64,6 +66,7 @@ class MemoryIn : public Imf::IStream {
 std::string encode(const Image& image) {
   Imf::Header header(image.width, image.height);
   header.compression() = Imf::ZIP_COMPRESSION;
+  for (const auto& [name, text] : image.metadata) header.insert(name, Imf::StringAttribute(text));
   Imf::FrameBuffer frame;
   for (const auto& [name, values] : image.channels) {
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
@@ -96,7 +99,8 @@ Image empty_image(const Imf::Header& header, std::size_t file_bytes) {
   }
   if (pixels > kMaxPixels || pixels * channels / kMaxPacking > file_bytes)
     throw UsageError("promises more pixels than it can hold");
-  Image image{.width = static_cast<int>(width), .height = static_cast<int>(height), .channels = {}};
+  Image image{
+      .width = static_cast<int>(width), .height = static_cast<int>(height), .channels = {}, .metadata = {}};
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) image.add(it.name());
   return image;
 }
@@ -106,6 +110,10 @@ Image decode(const std::string& bytes) {
   Imf::InputFile file(in);
   Image image = empty_image(file.header(), bytes.size());
   const Imath::Box2i window = file.header().dataWindow();
+  for (auto it = file.header().begin(); it != file.header().end(); ++it)
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute());
+        text != nullptr && std::string_view(it.name()).starts_with("penumbra"))
+      image.metadata[it.name()] = text->value();
   Imf::FrameBuffer frame;
   for (auto& [name, values] : image.channels)
     frame.insert(name, Imf::Slice::Make(Imf::FLOAT, values.data(), window));
@@ -120,6 +128,8 @@ void write_exr(const std::filesystem::path& path, const Image& image) {
   std::string bytes;
   try {
     bytes = encode(image);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& e) {
     throw SystemError(path.string() + ": cannot be encoded as EXR: " + e.what());
   }
@@ -142,7 +152,9 @@ Image read_exr(const std::filesystem::path& path) {
     return decode(bytes);
   } catch (const UsageError& e) {
     throw fail(e.what());
-  } catch (const std::exception& e) {  // OpenEXR's own, or no memory for what the header promises
+  } catch (const std::bad_alloc&) {  // the header promises no more than such a file can hold
+    throw;
+  } catch (const std::exception& e) {  // OpenEXR's own
     throw fail(std::string("is no readable EXR (") + e.what() + ")");
   }
 }

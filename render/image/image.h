@@ -12,6 +12,8 @@ namespace penumbra {
 struct Image {
   int width = 0, height = 0;
   std::map<std::string, std::vector<float>> channels;  ///< width·height each, row-major
+  /// What an EXR says of itself, as text by name. Of a file that was read: what begins with "penumbra".
+  std::map<std::string, std::string> metadata{};
 
   std::vector<float>& add(const std::string& name, float value = 0.0f);
   const std::vector<float>& at(

@@ -21,7 +21,7 @@ double area_left_of(double x) {
   return std::numbers::pi / 2.0 + std::asin(x) + x * std::sqrt(1.0 - x * x);
 }
 
-/// What the slices seen so far leave of the light, receiver by receiver.
+/// What the slices seen so far leave of the light, receiver by receiver. Shares are of what is above the horizon.
 PENUMBRA_VECTOR_CLONES
 void hide(OcclusionCombine rule, const double* __restrict share, const double* above, std::size_t count,
           double* __restrict left) {
@@ -30,10 +30,10 @@ void hide(OcclusionCombine rule, const double* __restrict share, const double* a
       for (std::size_t i = 0; i < count; ++i) left[i] *= 1.0 - share[i];
       break;
     case OcclusionCombine::kSum:
-      for (std::size_t i = 0; i < count; ++i) left[i] -= share[i];
+      for (std::size_t i = 0; i < count; ++i) left[i] -= above[i] * share[i];
       break;
     case OcclusionCombine::kMaximum:
-      for (std::size_t i = 0; i < count; ++i) left[i] = std::min(left[i], std::min(above[i], 1.0 - share[i]));
+      for (std::size_t i = 0; i < count; ++i) left[i] = std::min(left[i], above[i] * (1.0 - share[i]));
       break;
   }
 }
@@ -45,29 +45,56 @@ struct Plane {
   glm::dvec2 origin;           ///< texels at u = v = 0
 };
 
-/// A part of the light, and half of what it fills at unit depth.
-struct LightBox {
-  KernelPart part;
+/// What the light fills at unit depth: half extents, and of the box around all its parts in units of those.
+struct LightExtent {
   glm::dvec2 spread;
+  double reach;
 };
 
-/// The light as receivers see it on a plane: a box of texels for each. Those are at least a texel wide: a
-/// smaller one would see single texels.
+/// The light as receivers see it on a plane, about (u, v), in texels.
+struct SeenLights {
+  alignas(64) std::array<double, SliceReceivers::kMost> u, v, half_u, half_v;
+};
+
+/// Accuracy: so many texels above the horizon texels may still show the surface that the receiver lies on
+/// (OcclusionTextures.ASidePlaneSeesItsHalfOfTheSun).
+constexpr double kBias = 0.75;
+
+/// Each is at least a texel wide: a smaller one would see single texels. What of it is too low moves up and shrinks.
 PENUMBRA_VECTOR_CLONES
-void project_light(const SliceReceivers& __restrict from, const Plane& plane, const LightBox& light,
-                   TexelBoxes& __restrict boxes) {
-  const glm::dvec2 unit = plane.texels_per_unit, spread = light.spread * unit, origin = plane.origin;
-  const KernelPart part = light.part;
-  const double depth = plane.depth;
+void project_light(const SliceReceivers& __restrict from, const Plane& plane, const LightExtent& light,
+                   SeenLights& __restrict out) {
+  const double texel_u = 1.0 / plane.texels_per_unit.x, texel_v = 1.0 / plane.texels_per_unit.y;
+  const double spread_u = light.spread.x, spread_v = light.spread.y, reach = light.reach, depth = plane.depth;
   for (std::size_t i = 0; i < from.count; ++i) {
-    const double way = (from.w[i] - depth) * from.per_weight[i];
-    const double x = origin.x + (from.u[i] + from.toward_u[i] * way) * unit.x;
-    const double y = origin.y + (from.v[i] + from.toward_v[i] * way) * unit.y;
-    const double hx = std::max(spread.x * way, 0.5), hy = std::max(spread.y * way, 0.5);
-    boxes.x0[i] = x + part.x0 * hx;
-    boxes.x1[i] = x + part.x1 * hx;
-    boxes.y0[i] = y + part.y0 * hy;
-    boxes.y1[i] = y + part.y1 * hy;
+    const double step = from.w[i] - depth, way = step * from.per_weight[i];
+    const double u = from.toward_u[i] * way, v = from.toward_v[i] * way;
+    const double half_u = std::max(spread_u * way, 0.5 * texel_u),
+                 half_v = std::max(spread_v * way, 0.5 * texel_v);
+    // Along the direction up the horizon: half a texel, half the light, and the light's middle above the horizon.
+    const double up_u = std::abs(from.up_u[i]), up_v = std::abs(from.up_v[i]);
+    const double texel = 0.5 * (up_u * texel_u + up_v * texel_v),
+                 half = reach * (up_u * half_u + up_v * half_v);
+    const double middle = from.up_u[i] * u + from.up_v[i] * v + from.climb[i] * step,
+                 lowest = 2.0 * kBias * texel;
+    const bool is_low = middle - half < lowest;
+    const double kept = is_low ? std::max(0.5 * (middle + half - lowest), reach * texel) : half;
+    const double rise = is_low ? lowest + kept - middle : 0.0, shrink = is_low ? kept / half : 1.0;
+    out.u[i] = plane.origin.x + (from.u[i] + u + from.up_u[i] * rise) * plane.texels_per_unit.x;
+    out.v[i] = plane.origin.y + (from.v[i] + v + from.up_v[i] * rise) * plane.texels_per_unit.y;
+    out.half_u[i] = half_u * shrink * plane.texels_per_unit.x;
+    out.half_v[i] = half_v * shrink * plane.texels_per_unit.y;
+  }
+}
+
+/// One part of the light: a box of texels for each receiver.
+PENUMBRA_VECTOR_CLONES
+void take_part(const SeenLights& __restrict lights, const KernelPart& part, TexelBoxes& __restrict boxes) {
+  for (std::size_t i = 0; i < boxes.count; ++i) {
+    boxes.x0[i] = lights.u[i] + part.x0 * lights.half_u[i];
+    boxes.x1[i] = lights.u[i] + part.x1 * lights.half_u[i];
+    boxes.y0[i] = lights.v[i] + part.y0 * lights.half_v[i];
+    boxes.y1[i] = lights.v[i] + part.y1 * lights.half_v[i];
   }
 }
 
@@ -102,10 +129,11 @@ class FilteredSlices : public OcclusionLookup {
                  const OcclusionOptions& options)
       : filters_(slices.size()),
         parts_(kernel_parts(space.light, options.kernel)),
-        spread_(space.projection.spread()),
+        extent_{space.projection.spread(), 0.0},
         per_thickness_(1.0 / frustum.thickness),
         rule_(options.combine) {
     for (int i = 0; i < frustum.count; ++i) planes_.push_back(plane_of(frustum, i, options));
+    for (const KernelPart& part : parts_) extent_.reach = std::max(extent_.reach, part.x1);
     tbb::parallel_for(std::size_t{0}, slices.size(), [&](std::size_t i) {
       if (!slices[i].empty()) filters_[i] = std::make_unique<Filter>(slices[i], options.texture_size);
     });
@@ -132,6 +160,7 @@ class FilteredSlices : public OcclusionLookup {
 
  private:
   struct Work {
+    SeenLights lights;
     TexelBoxes boxes;
     alignas(64) std::array<double, SliceReceivers::kMost> covered, share;
   };
@@ -140,8 +169,9 @@ class FilteredSlices : public OcclusionLookup {
   void find_shares(const SliceReceivers& receivers, std::size_t slice, Work& work) const {
     work.boxes.count = receivers.count;
     std::fill_n(work.share.begin(), receivers.count, 0.0);
+    project_light(receivers, planes_[slice], extent_, work.lights);
     for (const KernelPart& part : parts_) {
-      project_light(receivers, planes_[slice], {part, spread_}, work.boxes);
+      take_part(work.lights, part, work.boxes);
       filters_[slice]->covered(work.boxes, work.covered.data());
       add_shares(work.boxes, work.covered.data(), part.share, work.share.data());
     }
@@ -151,20 +181,26 @@ class FilteredSlices : public OcclusionLookup {
   std::vector<std::unique_ptr<Filter>> filters_;  ///< none where the slice is empty
   std::vector<Plane> planes_;
   std::vector<KernelPart> parts_;
-  glm::dvec2 spread_;
+  LightExtent extent_;
   double per_thickness_;
   OcclusionCombine rule_;
 };
 
 }  // namespace
 
-void SliceReceivers::add(const Vec3& p, const LightProjection& light, double above_horizon) {
+void SliceReceivers::add(const Vec3& p, const Vec3& normal, const LightProjection& light,
+                         double above_horizon) {
   u[count] = p.x;
   v[count] = p.y;
   w[count] = p.z;
   per_weight[count] = 1.0 / light.weight(p);
   toward_u[count] = light.tilt().x - light.nearness() * p.x;
   toward_v[count] = light.tilt().y - light.nearness() * p.y;
+  // A horizon along the plane is far below.
+  const double along = std::max(std::hypot(normal.x, normal.y), 1e-12);
+  up_u[count] = normal.x / along;
+  up_v[count] = normal.y / along;
+  climb[count] = -normal.z / along;
   above[count++] = above_horizon;
 }
 

@@ -162,7 +162,8 @@ void OcclusionTextures::Impl::look_up(const Placed& from, const detail::Occlusio
         visibility[i] = static_cast<float>(above);
         if (!lookup || !(from.space.projection.weight(from.places[i]) > 0.0) || !(above > 0.0)) continue;
         pixels[receivers.count] = i;
-        receivers.add(from.places[i], from.space.projection, above);
+        receivers.add(from.places[i], from.space.projection.direction(surface.normals[i]),
+                      from.space.projection, above);
       }
     if (lookup) lookup->look_up(receivers);
     for (std::size_t k = 0; k < receivers.count; ++k)

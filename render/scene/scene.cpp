@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "penumbra/mesh/error.h"
+#include "render/support/nearest_word.h"
 
 namespace penumbra {
 
@@ -26,11 +27,14 @@ std::size_t Scene::light_index(std::string_view name_or_index) const {
   const char* end = name_or_index.data() + name_or_index.size();
   const auto [stop, error] = std::from_chars(name_or_index.data(), end, index);
   if (error == std::errc() && stop == end && index < lights.size()) return index;
+  std::vector<std::string> names;
+  for (const Light& light : lights) names.push_back(light.name);
   std::string known;
   for (std::size_t i = 0; i < lights.size(); ++i)
     known +=
         (i ? ", " : "") + std::to_string(i) + (lights[i].name.empty() ? "" : " (" + lights[i].name + ")");
-  throw UsageError("the scene has no light '" + std::string(name_or_index) + "'; it has " + known);
+  throw UsageError("the scene has no light '" + std::string(name_or_index) + "'" +
+                   did_you_mean(name_or_index, names) + "; it has " + known);
 }
 
 }  // namespace penumbra

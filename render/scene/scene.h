@@ -80,4 +80,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& op
 LoadedScene parse_scene(std::string_view text, const std::filesystem::path& folder, const std::string& name,
                         const SceneOptions& options = {});
 
+/// The same from the bytes of either: a scene file where the first character is a brace, else a mesh file.
+LoadedScene parse_scene_or_mesh(std::string_view bytes, const std::filesystem::path& folder,
+                                const std::string& name, const SceneOptions& options = {});
+
 }  // namespace penumbra

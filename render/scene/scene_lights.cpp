@@ -1,11 +1,13 @@
 #include "render/scene/scene_lights.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "mesh/vectors.h"
+#include "render/support/nearest_word.h"
 
 namespace penumbra::detail {
 namespace {
@@ -63,7 +65,9 @@ LightShape read_shape(const SceneNode& node) {
   if (name == "disk") return read_disk(node);
   if (name == "rectangle") return read_rectangle(node);
   if (name == "distant") return read_distant(node);
-  shape.fail("is \"" + name + "\"; only \"disk\", \"rectangle\" and \"distant\" are supported");
+  const std::array<std::string, 3> known = {"disk", "rectangle", "distant"};
+  shape.fail("is \"" + name + "\"" + did_you_mean(name, known) +
+             "; only \"disk\", \"rectangle\" and \"distant\" are supported");
 }
 
 Vec3 read_color(const SceneNode& node) {

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <span>
+#include <utility>
 
 #include "penumbra/mesh/error.h"
+#include "penumbra/mesh/io/polygon_soup.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/scene/default_scene.h"
 #include "render/scene/scene_json.h"
@@ -71,28 +74,37 @@ void take_colors(const detail::MeshCache::Entry& entry, Scene& scene) {
   scene.document = document.dump();
 }
 
-LoadedScene load_bare_mesh(const std::filesystem::path& path) {
-  detail::MeshCache meshes;
-  const detail::MeshCache::Entry& entry = meshes.get(path);
+LoadedScene scene_of(PolygonSoup soup, const std::string& name) {
+  const detail::MeshCache::Entry entry = detail::MeshCache::entry_of(std::move(soup));
   TriangleMesh mesh;
   try {
     mesh = detail::place_mesh(entry, {});
   } catch (const MeshError& e) {
-    throw MeshError(path.string() + ": " + e.what());
+    throw MeshError(name + ": " + e.what());
   }
-  LoadedScene loaded{.scene = detail::scene_around(mesh, path.string()), .warnings = {}};
+  LoadedScene loaded{.scene = detail::scene_around(mesh, name), .warnings = {}};
   take_colors(entry, loaded.scene);
   detail::take_normals(entry, {}, loaded.scene.objects.back());
   const std::string summary = detail::summary_of(entry, mesh.report());
-  if (!summary.empty()) loaded.warnings.push_back(path.string() + ": " + summary);
+  if (!summary.empty()) loaded.warnings.push_back(name + ": " + summary);
   return loaded;
 }
 
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options) {
-  if (!is_scene_file(path)) return load_bare_mesh(path);
+  if (!is_scene_file(path)) return scene_of(read_polygon_soup(path), path.string());
   return parse_scene(read_scene_text(path), path.parent_path(), path.string(), options);
+}
+
+LoadedScene parse_scene_or_mesh(std::string_view bytes, const std::filesystem::path& folder,
+                                const std::string& name, const SceneOptions& options) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  if (first == bytes.npos || bytes[first] != '{')
+    return scene_of(parse_polygon_soup(std::as_bytes(std::span(bytes)), name), name);
+  if (bytes.size() > kMaxSceneBytes)
+    throw SceneError(name + ": is larger than 16 MiB, no scene file; keep large data in mesh files");
+  return parse_scene(bytes, folder, name, options);
 }
 
 LoadedScene parse_scene(std::string_view text, const std::filesystem::path& folder, const std::string& name,

@@ -23,7 +23,10 @@ const MeshCache::Entry& MeshCache::get(const std::filesystem::path& path) {
   std::filesystem::path key = std::filesystem::weakly_canonical(path, error);
   if (error) key = path;
   if (const auto it = entries_.find(key); it != entries_.end()) return it->second;
-  PolygonSoup soup = read_polygon_soup(path);
+  return entries_.emplace(key, entry_of(read_polygon_soup(path))).first->second;
+}
+
+MeshCache::Entry MeshCache::entry_of(PolygonSoup soup) {
   Entry entry{.positions = {},
               .triangulation = triangulate(soup),
               .materials = std::move(soup.materials),
@@ -32,7 +35,7 @@ const MeshCache::Entry& MeshCache::get(const std::filesystem::path& path) {
               .corner_normals = std::move(soup.corner_normals),
               .ignored = std::move(soup.ignored)};
   entry.positions = std::move(soup.positions);
-  return entries_.emplace(key, std::move(entry)).first->second;
+  return entry;
 }
 
 TriangleMesh place_mesh(const MeshCache::Entry& entry, const Transform& transform) {

@@ -24,6 +24,8 @@ class MeshCache {
     std::vector<std::uint32_t> corner_normals;
     std::vector<std::string> ignored;
   };
+  /// Of a file that was read already.
+  static Entry entry_of(PolygonSoup soup);
   /// Reads the file the first time it is asked for. Throws MeshError.
   const Entry& get(const std::filesystem::path& path);
 

@@ -6,6 +6,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/scene/scene_limits.h"
+#include "render/support/nearest_word.h"
 
 namespace penumbra::detail {
 
@@ -88,10 +89,12 @@ void SceneNode::allow_only(std::initializer_list<std::string_view> keys) const {
   if (!value_.is_object()) fail(std::string("must be an object { … }, not ") + value_.type_name());
   std::string known;
   for (std::string_view key : keys) known += (known.empty() ? "" : ", ") + std::string(key);
+  const std::vector<std::string> words(keys.begin(), keys.end());
   for (const auto& [key, ignored] : value_.items()) {
     if (key.starts_with("x-") || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     const SceneNode child(ignored, path_ / key, notes_);
-    const std::string message = "unknown key (known here: " + known + "; keys of your own begin with x-)";
+    const std::string message = "unknown key" + did_you_mean(key, words) + " (known here: " + known +
+                                "; keys of your own begin with x-)";
     if (notes_.strict) child.fail(message);
     child.warn(message + ", ignored");
   }

@@ -133,8 +133,9 @@ void judge_silhouette(Report& report, const std::string& line, JudgedScene& scen
 
 void judge_reference(Report& report, const std::string& line, JudgedScene& scene, const Truth& truth) {
   const auto draw = [&](std::uint64_t seed) {
-    return scene.draw(
-        {.method = "reference", .options = {{"samples", std::uint64_t{kRays}}, {"seed", seed}}});
+    return scene.draw({.method = "reference",
+                       .options = {{"samples", std::uint64_t{kRays}}, {"seed", seed}},
+                       .size = kSize});
   };
   const RenderResult first = draw(1), second = draw(2);
   const PlateFigures f = figures_of(first, truth);

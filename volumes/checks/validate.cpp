@@ -144,7 +144,7 @@ class ContainmentChecker {
                      const ValidateOptions& options)
       : light_(light), reach_(reach), options_(options), random_(options.seed) {}
 
-  ContainmentFindings run(const ShadowMesh& inner, const ShadowMesh& outer) {
+  ContainmentFindings run(const ShadowMesh& inner, const ShadowMesh& outer, const Progress& progress) {
     ContainmentFindings findings;
     if (inner.triangles.empty()) return findings;
     const detail::PieceList from(inner), into(outer);
@@ -153,6 +153,7 @@ class ContainmentChecker {
       const Vec3 x = from.point_inside(random_);
       if (!is_of_interest(x) || !from.contains(x)) continue;
       ++findings.points;
+      report(progress, static_cast<double>(findings.points) / static_cast<double>(options_.points));
       if (into.contains(x)) continue;
       ++findings.outside;
       findings.example = x;
@@ -189,13 +190,21 @@ VolumeFindings validate(const TriangleMesh& mesh, const CircularLight& light, co
                         const ValidateOptions& options) {
   CircularLight center = light;
   center.radius = 0.0;
-  const ShadowMesh hard = extrude_penumbra(mesh, center, classify_faces(mesh, center), extrude);
+  ExtrudeOptions quiet = extrude;
+  quiet.progress = {};
+  const ShadowMesh hard = extrude_penumbra(mesh, center, classify_faces(mesh, center), quiet);
   ContainmentChecker containment(light, detail::shadow_reach(mesh, light, extrude), options);
-  return {.umbra = check_surface(umbra.positions, umbra.triangles, options.surface),
-          .penumbra = check_surface(penumbra.positions, penumbra.triangles, options.surface),
-          .umbra_in_hard = containment.run(umbra, hard),
-          .hard_in_penumbra = containment.run(hard, penumbra),
-          .umbra_in_penumbra = containment.run(umbra, penumbra)};
+  // Shares of the time by eye; they only steer the progress that is reported.
+  const auto part = [&](double begin, double end) { return part_of(options.progress, begin, end); };
+  report(options.progress, 0.1);
+  VolumeFindings findings;
+  findings.umbra = check_surface(umbra.positions, umbra.triangles, options.surface);
+  report(options.progress, 0.2);
+  findings.penumbra = check_surface(penumbra.positions, penumbra.triangles, options.surface);
+  findings.umbra_in_hard = containment.run(umbra, hard, part(0.4, 0.6));
+  findings.hard_in_penumbra = containment.run(hard, penumbra, part(0.6, 0.8));
+  findings.umbra_in_penumbra = containment.run(umbra, penumbra, part(0.8, 1.0));
+  return findings;
 }
 
 }  // namespace penumbra

@@ -58,10 +58,11 @@ struct ContainmentFindings {
 };
 
 struct ValidateOptions {
-  SurfaceCheckOptions surface;
+  SurfaceCheckOptions surface{};
   /// Points to try for each containment.
   std::size_t points = 1000;
   std::uint64_t seed = 1;
+  Progress progress{};
 };
 
 struct VolumeFindings {
@@ -72,7 +73,7 @@ struct VolumeFindings {
 };
 
 /// Checks the volumes of one caster, as build_shadow_volumes makes them with these options. Expected cost O(n
-/// log n) for n triangles, and O(points · n).
+/// log n) for n triangles, and O(points · n). Throws Cancelled.
 VolumeFindings validate(const TriangleMesh& mesh, const CircularLight& light, const ShadowMesh& umbra,
                         const ShadowMesh& penumbra, const ExtrudeOptions& extrude,
                         const ValidateOptions& options = {});

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "render/d_buffer/view/window_clip.h"
 
 namespace penumbra::detail {
 namespace {
@@ -99,6 +102,20 @@ std::optional<std::array<Uvh, 3>> EntryFootprints::gap(const GapFace& gap) const
   }
   grow(corners);
   return corners;
+}
+
+std::vector<Uvh> EntryFootprints::about_window(const std::array<Uvh, 3>& corners) const {
+  const UvBounds bounds = uv_bounds_of(corners);
+  const glm::dvec2 farthest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+  if (options_.is_hemicube || std::max(farthest.x, farthest.y) <= kFarOutside)
+    return {corners.begin(), corners.end()};
+  std::vector<glm::dvec4> polygon;
+  for (const Uvh& c : corners) polygon.emplace_back(c.uv, c.h, 1.0);
+  polygon = clipped_to_window(std::move(polygon), 2.0 * options_.half_window);
+  std::vector<Uvh> out;
+  for (std::size_t k = 2; k < polygon.size(); ++k)
+    for (const std::size_t i : {std::size_t{0}, k - 1, k}) out.push_back(divided(polygon[i]));
+  return out;
 }
 
 /// Moves a triangle's sides outward by the dilation; the points of slivers by at most kLongestMiter times as

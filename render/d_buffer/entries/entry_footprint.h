@@ -59,6 +59,9 @@ class EntryFootprints {
   /// The face, dilated. None for one that is not wholly in front of the light: the facets have to do.
   std::optional<std::array<Uvh, 3>> gap(const GapFace& gap) const;
 
+  /// What of a triangle is about the window, as triangles.
+  std::vector<Uvh> about_window(const std::array<Uvh, 3>& corners) const;
+
   double dilation(const glm::dvec2& uv) const;
   double narrow() const { return options_.narrow; }
 

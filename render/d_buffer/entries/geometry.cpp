@@ -123,7 +123,7 @@ class Appender {
     if (!corners) return;
     const double highest = std::max({(*corners)[0].h, (*corners)[1].h, (*corners)[2].h});
     if (!least_height(SupportKind::kUmbra, uv_bounds_of(*corners), highest)) return;
-    for (const Uvh& c : *corners) push(out_.umbra, c, first_ + gap.facet, c.h);
+    for (const Uvh& c : from_.footprints.about_window(*corners)) push(out_.umbra, c, first_ + gap.facet, c.h);
   }
 
   std::vector<EntryVertex>& triangles_of(SupportKind kind) {

@@ -7,7 +7,6 @@
 //   CONTENTS  what a texel keeps: 0 edges, kDistances the paper's distances
 //   CURVE     visibility of the parameter t: 0 exact, kSmoothstep, kSquareRoot
 //   ENTRIES   1 or 2 are kept
-//   UNCERTAIN_OFFSET  what the output is greater by than V where an entry contradicts what is known of the disk's center
 #include "disk_area.glsl"
 #include "d_buffer_lookup.glsl"
 #include "d_buffer_boundary.glsl"
@@ -16,7 +15,8 @@ const int kDistances = 1;
 const int kSmoothstep = 1, kSquareRoot = 2;
 
 layout(early_fragment_tests) in;
-layout(location = 0) out float visibility;  // V, or V + UNCERTAIN_OFFSET
+layout(location = 0) out float visibility;
+layout(location = 1) out uvec2 uses;  // the entries that it is from, see EntryUse (seen_boundary.h); 0: none
 
 // Area fraction of a half-plane, or one of the paper's approximations of it; t = (1 + δ)/2.
 float curve_of(float delta) {
@@ -51,9 +51,11 @@ struct Share {
   float visibility;  // -1: the entry says nothing about this receiver
   Chord chord;
   bool has_other;    // edge: it is part of the same boundary
-  bool uncertain;    // it contradicts what is known of the disk's center
+  uint use;          // but for the bit of umbra
 };
-const Share kNoShare = Share(-1.0, kWholeDisk, false, false);
+const Share kNoShare = Share(-1.0, kWholeDisk, false, 0u);
+const uint kFollowed = 1u, kEdgeAlone = 2u, kUmbra = 4u, kUncertain = 8u;
+const int kFacetShift = 4;
 
 // Whether a point is above the receiver's horizon by more than rounding explains.
 bool is_above_plane(vec3 p, Receiver r) {
@@ -69,16 +71,16 @@ Share share_of_facet(uint facet, uint other, Receiver r, Chord horizon) {
   Chord chord = chord_of_plane(edge_plane(r.x, a, b));
   bool below = !is_above_plane(a, r) && !is_above_plane(b, r);  // the receiver's own plane hides it
   if (below || max(a.z, b.z) <= r.x.z || !(abs(chord.delta) < 1.0)) return kNoShare;
-  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, false, false);
+  if (CURVE != 0) return Share(min(curve_of(chord.delta), half_plane_area(horizon.delta)), chord, false, 0u);
   if (horizon.delta >= 1.0) {
     Past past = past_boundary(facet, other, a, b, chord, r.x);
     bool agrees = past.center != r.hidden && abs(past.area) < 2.0;  // and is a number
-    if (agrees) return Share(clamp(past.area, 0.0, 1.0), chord, past.met, false);
+    if (agrees) return Share(clamp(past.area, 0.0, 1.0), chord, past.met, facet << kFacetShift | kFollowed);
   }
   float agreed = agreeing(chord.delta, r.hidden);
-  bool uncertain = agreed != chord.delta;
+  uint use = facet << kFacetShift | kEdgeAlone | (agreed != chord.delta ? kUncertain : 0u);
   chord.delta = agreed;
-  return Share(two_half_planes_area(chord, horizon), chord, false, uncertain);
+  return Share(two_half_planes_area(chord, horizon), chord, false, use);
 }
 
 // The 2004 paper, eq. 3, corrected: t = |cxs|(|cx|-|cxuv|) / (2|cxuv|(|cx|-|cxs|)) in the umbra branch, one minus the
@@ -88,7 +90,7 @@ Share share_of_distances(Entry e, Receiver r, Chord horizon) {
   float edge = uintBitsToFloat(e.content);
   if (r.x.z >= e.height || edge <= r.x.z) return kNoShare;
   float t = (e.height - r.x.z) / (2.0 * (edge - r.x.z));
-  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, false, false);
+  return Share(min(curve_of(e.umbra ? 2.0 * t - 1.0 : 1.0 - 2.0 * t), half_plane_area(horizon.delta)), kWholeDisk, false, 0u);
 }
 
 Share share_of(Entry e, uint other, Receiver r, Texel t, Chord horizon) {
@@ -127,10 +129,10 @@ void main() {
 #else
   Share first = share_of(one, kNoEdge, r, t, horizon);
 #endif
-  if (first.visibility < 0.0) {
+  if (first.visibility < 0.0)
     visibility = r.hidden ? 0.0 : half_plane_area(horizon.delta);
-  } else {
+  else
     visibility = second.visibility < 0.0 ? first.visibility : union_of(first, second, umbra);
-    if (first.uncertain || second.uncertain) visibility += float(UNCERTAIN_OFFSET);
-  }
+  uses = uvec2(first.use, second.use);
+  if (umbra) uses |= mix(uvec2(0u), uvec2(kUmbra), notEqual(uses, uvec2(0u)));
 }

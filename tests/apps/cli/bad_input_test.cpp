@@ -121,6 +121,8 @@ const BadScene kBadScenes[] = {
     {"NameOfALight",
      with_lights(R"([{"name":"a b","shape":"disk","center":[0,4,0],"normal":[0,-1,0],"radius":1}])"),
      "/lights/0/name"},
+    {"ShapeNearAnother", with_lights(R"([{"shape":"disc","center":[0,4,0],"normal":[0,-1,0],"radius":1}])"),
+     "(did you mean disk?)"},
     {"SphereLight", with_lights(R"([{"shape":"sphere","center":[0,4,0],"normal":[0,-1,0],"radius":1}])"),
      "/lights/0/shape"},
     {"RectangleWithoutTangent",
@@ -195,7 +197,33 @@ void PrintTo(const BadUsage& bad, std::ostream* out) {
 
 const BadUsage kBadUsages[] = {
     {"NoCommand", {}, 2, "subcommand"},
-    {"UnknownCommand", {"rendr", "SCENE"}},
+    {"UnknownCommand", {"rendr", "SCENE"}, 2, "unknown command 'rendr' (did you mean render?)"},
+    {"UnknownCommandBehindOption", {"--threads"}, 2, "unknown option --threads"},
+    {"UnknownOptionNearAnother", {"render", "SCENE", "--outptu", "o.png"}, 2, "(did you mean --output?)"},
+    {"UnknownOptionInPlaceOfAll",
+     {"render", "--ouput=o.png"},
+     2,
+     "unknown option --ouput (did you mean --output?)"},
+    {"PartOfAnOption",
+     {"render", "SCENE", "--expo", "1"},
+     2,
+     "unknown option --expo (did you mean --exposure?)"},
+    {"SuperfluousArgument", {"classify", "SCENE", "more"}, 2, "unexpected argument 'more'"},
+    {"MethodNearAnother",
+     {"render", "SCENE", "--output", "o.png", "--method", "silhouete"},
+     2,
+     "(did you mean silhouette?)"},
+    {"WordNearAnother",
+     {"render", "SCENE", "--output", "o.png", "--combine", "prodcut"},
+     2,
+     "(did you mean product?)"},
+    {"JudgeNearAnother", {"compare", "o.exr", "SCENE", "--judge", "doubel"}, 2, "(did you mean double?)"},
+    {"LightNearAnother", {"volumes", "NAMED", "--check", "--light", "wimdow"}, 2, "(did you mean window?)"},
+    {"SeedOverflows",
+     {"render", "SCENE", "--output", "o.png", "--seed", "18446744073709551616"},
+     2,
+     "64 bits"},
+    {"SeedNegative", {"render", "SCENE", "--output", "o.png", "--seed", "-1"}, 2, "64 bits"},
     {"UnknownOption", {"render", "SCENE", "--color", "red"}, 2, "--color"},
     {"NoScene", {"render", "--output", "o.png"}, 2, "SCENE"},
     {"NothingToDo", {"render", "SCENE"}, 2, "--output"},
@@ -236,6 +264,8 @@ TEST_P(BadUsageTest, IsRefused) {
   write("t.off", kTetrahedron);
   const std::string scene = write("scene.json", scene_text("t.off"));
   const std::string odd = write("odd.json", scene_text("t.off", R"(,"color":[1,0,0])"));
+  const std::string named =
+      write("named.json", scene_text("t.off", "", R"("normal":[0,-1,0],"radius":1,"name":"window")"));
   const Strings before = files();
   Strings arguments = GetParam().arguments;
   for (std::string& each : arguments) {
@@ -243,6 +273,8 @@ TEST_P(BadUsageTest, IsRefused) {
       each = scene + each.substr(5);
     else if (each == "ODD")
       each = odd;
+    else if (each == "NAMED")
+      each = named;
     else if (each.find('.') != std::string::npos && each.front() != '-')
       each = path(each);
   }

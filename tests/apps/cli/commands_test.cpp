@@ -172,6 +172,8 @@ TEST_F(CommandTest, UnknownKeysWarnOnOneLineEach) {
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
   EXPECT_NE(outcome.err.find("warning: " + odd + ": /objects/0/color"), std::string::npos) << outcome.err;
+  const Outcome near = run({"classify", write("near.json", scene_text("t.off", R"(,"Albeto":1)"))});
+  EXPECT_NE(near.err.find("unknown key (did you mean albedo?)"), std::string::npos) << near.err;
 }
 
 TEST_F(CommandTest, RenderWritesBothFormatsAndStats) {

@@ -60,7 +60,8 @@ class ProgramTest : public testing::Test {
     return names;
   }
 
-  Outcome run(std::vector<std::string> arguments) const {
+  /// `input`: what the program reads from standard input.
+  Outcome run(std::vector<std::string> arguments, const std::string& input = "/dev/null") const {
     arguments.insert(arguments.begin(), std::string(PENUMBRA_BIN) + "/penumbra");
     std::vector<char*> argv;
     for (std::string& each : arguments) argv.push_back(each.data());
@@ -68,7 +69,9 @@ class ProgramTest : public testing::Test {
     const std::string out = logs_ / "out", err = logs_ / "err";
     const pid_t child = fork();
     if (child == 0) {
-      if (!std::freopen(out.c_str(), "w", stdout) || !std::freopen(err.c_str(), "w", stderr)) _exit(126);
+      if (!std::freopen(input.c_str(), "r", stdin) || !std::freopen(out.c_str(), "w", stdout) ||
+          !std::freopen(err.c_str(), "w", stderr))
+        _exit(126);
       execv(argv[0], argv.data());
       _exit(127);
     }

@@ -57,6 +57,47 @@ TEST(WriteFile, AFailedStreamIsAnError) {
   EXPECT_EQ(folder.file_count(), 0u);
 }
 
+TEST(WriteFile, FollowsLinksToWhatIsNotThere) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "sub");
+  std::filesystem::create_symlink("sub/target.txt", folder / "b");
+  std::filesystem::create_symlink("b", folder / "a");
+  for (int time = 0; time < 2; ++time) {
+    write_file(folder / "a", write_hello);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "a"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "b"));
+    EXPECT_EQ(read_text(folder / "sub/target.txt"), "hello\n");
+  }
+  std::filesystem::create_symlink("round", folder / "round");
+  EXPECT_THROW(write_file(folder / "round", write_hello), SystemError);
+}
+
+TEST(WriteFile, TakesTheLongestName) {
+  const TemporaryFolder folder;
+  const std::string name(255, 'n');
+  write_file(folder / name, write_hello);
+  EXPECT_EQ(read_text(folder / name), "hello\n");
+  EXPECT_THROW(write_file(folder / (name + "n"), write_hello), SystemError);
+  EXPECT_EQ(folder.file_count(), 1u);
+}
+
+TEST(WriteFile, UnfinishedFilesCanBeRemoved) {
+  const TemporaryFolder folder;
+  std::size_t before = 0, after = 9;
+  EXPECT_THROW(write_file(folder / "a",
+                          [&](std::ostream& out) {
+                            write_file(folder / "b", write_hello);
+                            out << "half";
+                            before = folder.file_count();
+                            remove_unfinished_files();
+                            after = folder.file_count();
+                          }),
+               SystemError);
+  EXPECT_EQ(before, 2u);
+  EXPECT_EQ(after, 1u);
+  EXPECT_EQ(read_text(folder / "b"), "hello\n");
+}
+
 TEST(WriteFile, SaysWhatCannotBeWritten) {
   const TemporaryFolder folder;
   for (const std::filesystem::path& path : {folder.path(), folder / "none" / "a.txt",

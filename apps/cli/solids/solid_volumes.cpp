@@ -1,4 +1,4 @@
-#include "apps/cli/solid_volumes.h"
+#include "apps/cli/solids/solid_volumes.h"
 
 #include <cstdlib>
 
