@@ -56,8 +56,8 @@ bool turn_outward(HalfSpace& h, const std::array<Vec3, 4>& inside) {
 class UmbraOfBody {
  public:
   UmbraOfBody(const TriangleMesh& mesh, const Component& component, const CircularLight& light,
-              const Classification& classes, const detail::ShadowReach& reach)
-      : mesh_(mesh), component_(component), light_(light), classes_(classes), reach_(reach) {}
+              const Classification& classes, const detail::ShadowReach& reach, const Bounds& box)
+      : mesh_(mesh), component_(component), light_(light), classes_(classes), reach_(reach), box_(box) {}
 
   /// A cap for each face that looks at some of the disk, the tangent plane of each edge between such a face
   /// and one that does not, and a box beyond the bound.
@@ -103,12 +103,16 @@ class UmbraOfBody {
   }
 
   void add_box(UmbraBounds& bounds) const {
+    const auto source = static_cast<std::uint32_t>(component_.faces.front());
+    if (!box_.empty()) {
+      for (const HalfSpace& h : detail::half_spaces_of(box_)) bounds.add(h, ShadowKind::kFarCap, source);
+      return;
+    }
     double half = reach_.bound_radius;
     for (const FaceId f : component_.faces) {
       for (const Vec3& p : corners(f)) half = std::max(half, glm::length(p - reach_.bound_center));
     }
     half *= 2.0;
-    const auto source = static_cast<std::uint32_t>(component_.faces.front());
     for (const double side : {-half, half}) {
       for (int axis = 0; axis < 3; ++axis) {
         const auto at = [&](double y, double z) {
@@ -128,6 +132,7 @@ class UmbraOfBody {
   const CircularLight& light_;
   const Classification& classes_;
   const detail::ShadowReach& reach_;
+  const Bounds& box_;
 };
 
 class UmbraExtruder {
@@ -167,7 +172,8 @@ class UmbraExtruder {
     const SolidShape shape = detail::shape_of_solid(mesh_, component);
     if (shape.kind == SolidKind::kOther) return {};
     if (shape.kind == SolidKind::kStarShaped) return umbra_of_kernel(component, shape.inside);
-    UmbraBounds bounds = UmbraOfBody(mesh_, component, light_, classes_, reach_).bounds(shape.inside);
+    UmbraBounds bounds =
+        UmbraOfBody(mesh_, component, light_, classes_, reach_, options_.box).bounds(shape.inside);
     return {detail::intersect_half_spaces(bounds.half_spaces, shape.inside), std::move(bounds.tags), true};
   }
 
@@ -187,7 +193,8 @@ class UmbraExtruder {
     if (shape.kind != SolidKind::kConvex) return {};
     const Classification classes = classify_faces(kernel, light_);
     UmbraBounds bounds =
-        UmbraOfBody(kernel, kernel.components().front(), light_, classes, reach_).bounds(shape.inside);
+        UmbraOfBody(kernel, kernel.components().front(), light_, classes, reach_, options_.box)
+            .bounds(shape.inside);
     for (ShadowTag& tag : bounds.tags) {
       if (tag.kind != ShadowKind::kFarCap) tag.kind = ShadowKind::kCell;
       tag.source = static_cast<std::uint32_t>(component.faces.front());

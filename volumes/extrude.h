@@ -14,6 +14,7 @@
 #pragma once
 
 #include "penumbra/mesh/progress.h"
+#include "penumbra/mesh/triangle_mesh.h"
 #include "penumbra/volumes/shadow_mesh.h"
 #include "penumbra/volumes/silhouettes.h"
 
@@ -24,6 +25,8 @@ struct ExtrudeOptions {
   /// around caster and light, or around the caster alone where the light is distant.
   Vec3 bound_center{0.0};
   double bound_radius = 0.0;
+  /// Unless it is empty: umbra volumes end at its sides instead. It has to hold the caster.
+  Bounds box{};
   /// Corners of the polygon around the disk, at least 3. In sheets: per full turn of a cone.
   int cone_segments = 16;
   /// One penumbra cell for each convex component. False: convex components are treated as all others.

@@ -75,6 +75,8 @@ std::vector<std::string_view> column(std::string_view Format::*member) {
 /// What still holds of the union of two volumes. A union of umbras lies in the umbra of both casters
 /// together, but is not all of it; a union of penumbra volumes contains the penumbra of both.
 Guarantee of_union(Guarantee a, Guarantee b) {
+  const auto is_solid = [](Guarantee g) { return g == Guarantee::kCertified || g == Guarantee::kWithin; };
+  if (is_solid(a) && is_solid(b)) return a == b ? a : Guarantee::kWithin;
   const auto is_umbra = [](Guarantee g) { return g == Guarantee::kExact || g == Guarantee::kContained; };
   if (is_umbra(a) && is_umbra(b)) return Guarantee::kContained;
   return a == b ? a : Guarantee::kNone;
@@ -96,6 +98,8 @@ const char* name_of(ShadowKind kind) {
       return "cell";
     case ShadowKind::kFarCap:
       return "far_cap";
+    case ShadowKind::kSolid:
+      return "solid";
   }
   return "unknown";
 }
@@ -108,6 +112,10 @@ const char* name_of(Guarantee guarantee) {
       return "contained";
     case Guarantee::kContains:
       return "contains";
+    case Guarantee::kCertified:
+      return "certified";
+    case Guarantee::kWithin:
+      return "within";
     case Guarantee::kNone:
       return "none";
   }

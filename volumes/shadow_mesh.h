@@ -27,6 +27,8 @@ enum class ShadowKind : std::uint8_t {
   kCell,
   /// Where a volume is cut off beyond the bound. Source: as for kCell.
   kFarCap,
+  /// The boundary of a solid. Source: 0.
+  kSolid,
 };
 /// As files have it: "penumbra_facet", "far_cap" and so on.
 const char* name_of(ShadowKind kind);
@@ -47,10 +49,14 @@ enum class Guarantee : std::uint8_t {
   kContained,
   /// A penumbra: {O < 1} lies inside it.
   kContains,
+  /// A solid: it lies inside {O = 0}, or {O < 1} inside it. Each of its triangles is proved to be on the safe side.
+  kCertified,
+  /// A solid that is meant to be on the safe side, as far as points tell, and lies within its tolerance.
+  kWithin,
   /// Sheets: facets that are no volume. Also what was not made.
   kNone,
 };
-/// "exact", "contained", "contains" or "none".
+/// "exact", "contained", "contains", "certified", "within" or "none".
 const char* name_of(Guarantee guarantee);
 
 struct ShadowMesh {

@@ -7,6 +7,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/reports.h"
+#include "apps/cli/solids/solid_volumes.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
@@ -21,6 +22,7 @@ constexpr const char* kFooter = R"(Examples:
   penumbra volumes bunny.ply --penumbra p.ply
   penumbra volumes scene.json --umbra u.ply --penumbra p.ply --report -
   penumbra volumes scene.json --sheets s.obj --cone-segments 32
+  penumbra volumes bunny.ply --form solid --umbra u.ply --penumbra p.ply --check
   penumbra volumes scene.json --check
 Each file holds all casters. In PLY every triangle says its object (index in the scene), kind and source (face, edge or
 vertex of that object's mesh, by kind). Inside a volume is where its winding number is at least 1: every point that an
@@ -33,7 +35,9 @@ for convex casters. Lights are disks or distant; volumes end beyond a sphere aro
 struct Arguments {
   CommonOptions common;
   SceneInput scene;
-  std::filesystem::path umbra, penumbra, sheets, report;
+  std::filesystem::path umbra, penumbra, sheets, report, level_file;
+  std::string form = "cells", tolerance;
+  double level = 0.5;
   std::string light;  ///< name or number; empty: each
   bool merge = false, check = false;
   int cone_segments = ExtrudeOptions{}.cone_segments;
@@ -41,7 +45,10 @@ struct Arguments {
   bool wants_umbra() const { return !umbra.empty() || only_report() || check; }
   bool wants_penumbra() const { return !penumbra.empty() || only_report() || check; }
   bool wants_sheets() const { return !sheets.empty(); }
-  bool only_report() const { return umbra.empty() && penumbra.empty() && sheets.empty(); }
+  bool only_report() const {
+    return umbra.empty() && penumbra.empty() && sheets.empty() && level_file.empty();
+  }
+  bool solid() const { return form == "solid"; }
 };
 
 // What all casters together produced.
@@ -53,20 +60,14 @@ struct Volumes {
   bool good = true;
 };
 
-/// "u.ply" → "u.NAME.ply"; as it is where the scene has one light or one was chosen.
-std::filesystem::path file_of(const std::filesystem::path& path, const std::string& light) {
-  if (light.empty() || path.empty()) return path;
-  std::filesystem::path named = path;
-  return named.replace_filename(path.stem().string() + "." + light + path.extension().string());
-}
-
 /// All that is written for lights of these names.
 std::vector<Output> outputs_of(const Arguments& arguments, const std::vector<std::string>& lights) {
   std::vector<Output> outputs = {{"--report", arguments.report}};
   for (const std::string& light : lights) {
-    outputs.push_back({"--umbra", file_of(arguments.umbra, light)});
-    outputs.push_back({"--penumbra", file_of(arguments.penumbra, light)});
-    outputs.push_back({"--sheets", file_of(arguments.sheets, light)});
+    outputs.push_back({"--umbra", file_of_light(arguments.umbra, light)});
+    outputs.push_back({"--penumbra", file_of_light(arguments.penumbra, light)});
+    outputs.push_back({"--sheets", file_of_light(arguments.sheets, light)});
+    outputs.push_back({"--level-file", file_of_light(arguments.level_file, light)});
   }
   return outputs;
 }
@@ -79,12 +80,16 @@ void require_good(const std::vector<Output>& outputs, const std::vector<std::fil
 void check(const Arguments& arguments) {
   if (arguments.only_report() && arguments.report.empty() && !arguments.check)
     throw UsageError("nothing to do; give --umbra, --penumbra, --sheets, --report or --check");
+  if (arguments.solid() && arguments.wants_sheets())
+    throw UsageError("--sheets are no solid; leave out --form solid");
+  if (!arguments.solid() && (!arguments.level_file.empty() || !arguments.tolerance.empty()))
+    throw UsageError("--level-file and --tolerance are for solids; add --form solid");
   const std::vector<Output> outputs = outputs_of(arguments, {""});
   for (const auto& [option, path] : outputs)
     if (!path.empty() && option != "--report")
       require_extension(option, path, shadow_mesh_extensions(), false);
   require_good(outputs, {arguments.scene.path});
-  if (arguments.merge && arguments.report.empty())
+  if (arguments.merge && arguments.report.empty() && !arguments.solid())
     say_ignored("--merge", "files hold all casters anyway, and there is no --report");
 }
 
@@ -165,7 +170,7 @@ nlohmann::json write(const Arguments& arguments, const Volumes& volumes, const s
                              const std::vector<ShadowMesh>& parts) {
     const ShadowMesh whole = merge(parts);
     if (!path.empty()) {
-      const std::filesystem::path file = file_of(path, light);
+      const std::filesystem::path file = file_of_light(path, light);
       write_shadow_mesh(file, whole);
       say_written(arguments.common.verbose, file);
       if (whole.triangles.empty() && !parts.empty())
@@ -187,8 +192,30 @@ std::vector<std::size_t> chosen_lights(const Arguments& arguments, const Scene& 
   return all;
 }
 
+SolidArguments solid_arguments(const Arguments& arguments) {
+  return {.umbra = arguments.umbra,
+          .penumbra = arguments.penumbra,
+          .level_file = arguments.level_file,
+          .level = arguments.level,
+          .tolerance = arguments.tolerance,
+          .merge = arguments.merge,
+          .check = arguments.check,
+          .verbose = arguments.common.verbose,
+          .threads = arguments.common.threads};
+}
+
+/// The volumes of one light in either form: report, findings for a person, and whether a check found them good.
+SolidReport make_and_write(const Arguments& arguments, const Scene& scene, const Light& light,
+                           const CircularLight& circular, const std::string& name) {
+  if (arguments.solid()) return write_solids(solid_arguments(arguments), scene, light.shape, name);
+  const Volumes volumes = build_volumes(arguments, scene, circular);
+  if (arguments.common.verbose) say(volumes.objects);
+  return {write(arguments, volumes, name), volumes.findings, volumes.good};
+}
+
 void run(const Arguments& arguments) {
   check(arguments);
+  if (arguments.solid()) check(solid_arguments(arguments));
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
   const std::vector<std::size_t> lights = chosen_lights(arguments, scene);
@@ -205,9 +232,8 @@ void run(const Arguments& arguments) {
   bool good = true;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const std::string& name = names[i];
-    const Volumes volumes = build_volumes(arguments, scene, circular[i]);
-    if (arguments.common.verbose) say(volumes.objects);
-    reports.push_back(write(arguments, volumes, name));
+    const SolidReport volumes = make_and_write(arguments, scene, scene.lights[lights[i]], circular[i], name);
+    reports.push_back(volumes.json);
     if (arguments.check && arguments.report != "-")
       print((name.empty() ? "" : "light " + name + "\n") + volumes.findings);
     good = good && volumes.good;
@@ -245,6 +271,26 @@ void add_volumes_command(CLI::App& app) {
           "Only for this light, by name or number; otherwise for each, in files called FILE.LIGHT.ply where "
           "the scene has several")
       ->type_name("NAME|N");
+  command
+      .add_option(
+          "--form", arguments->form,
+          "solid: one closed surface a caster, without self-intersections, for other tools; cells: a sum of "
+          "convex pieces, made in milliseconds")
+      ->check(CLI::IsMember({"cells", "solid"}))
+      ->capture_default_str();
+  command
+      .add_option("--tolerance", arguments->tolerance,
+                  "Of solids: detail of this size is kept, in scene units or as a share of the caster's size "
+                  "such as 1%; "
+                  "otherwise 1%")
+      ->type_name("LENGTH");
+  command
+      .add_option("--level-file", arguments->level_file,
+                  "A solid in which at most the fraction --level of the light is seen")
+      ->type_name("FILE");
+  command.add_option("--level", arguments->level, "Fraction of the light for --level-file")
+      ->check(CLI::Range(0.001, 0.999))
+      ->capture_default_str();
   command.add_flag("--check", arguments->check,
                    "Say whether the volumes are closed, cross themselves and lie inside each other");
   command.add_option("--cone-segments", arguments->cone_segments, "Corners of the polygon around the disk")

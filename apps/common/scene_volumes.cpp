@@ -6,6 +6,7 @@ namespace penumbra::apps {
 namespace {
 
 constexpr double kFarAway = 10.0;  // times the sphere around all objects
+constexpr double kMargin = 0.02;   // of the radius of the casters, around all objects
 
 }  // namespace
 
@@ -21,6 +22,15 @@ ExtrudeOptions extrude_options_for(const Scene& scene, const CircularLight& ligh
   options.bound_center = bounds.center();
   options.bound_radius = 1.01 * bounds.radius();
   return options;
+}
+
+Bounds solid_bound_for(const Scene& scene) {
+  if (scene.objects.size() == 1) return {};
+  Bounds bounds = scene.bounds();
+  const Vec3 by(kMargin * scene.caster_bounds().radius());
+  bounds.low -= by;
+  bounds.high += by;
+  return bounds;
 }
 
 }  // namespace penumbra::apps

@@ -184,6 +184,21 @@ class DualHull {
 
 }  // namespace
 
+std::array<HalfSpace, 6> half_spaces_of(const Bounds& box) {
+  std::array<HalfSpace, 6> out;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const bool high : {false, true}) {
+      HalfSpace h{box.low, box.low, box.low};
+      for (Vec3& p : h) p[axis] = high ? box.high[axis] : box.low[axis];
+      h[high ? 1 : 2][u] = box.high[u];
+      h[high ? 2 : 1][v] = box.high[v];
+      out[static_cast<std::size_t>(2 * axis + (high ? 1 : 0))] = h;
+    }
+  }
+  return out;
+}
+
 HalfSpaceCell intersect_half_spaces(std::span<const HalfSpace> half_spaces,
                                     const std::array<Vec3, 4>& inside) {
   return DualHull().run(half_spaces, inside);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "penumbra/mesh/triangle_mesh.h"
 #include "penumbra/mesh/types.h"
 
 namespace penumbra::detail {
@@ -11,6 +12,9 @@ namespace penumbra::detail {
 /// What is below the plane through three points. Seen from above, which is outside, they run
 /// counter-clockwise.
 using HalfSpace = std::array<Vec3, 3>;
+
+/// The six of a box.
+std::array<HalfSpace, 6> half_spaces_of(const Bounds& box);
 
 struct HalfSpaceCell {
   /// Rounded to the nearest double.

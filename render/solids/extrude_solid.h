@@ -1,0 +1,61 @@
+// Solids: umbra, penumbra, or the region in which at most a given fraction of a light is seen, as one clean surface each.
+//
+// In: casters, a circular light near or distant, a bound. Out: a closed, oriented two-manifold without self-intersections,
+// which other tools can slice, print, subtract and measure.
+//
+// Points of a grid are judged by the one call for visibility (visibility.h). The surface between those inside and those
+// outside lies on the grid's edges (volumes/solids/). Each triangle of an umbra is then moved inward until it is proved to be wholly
+// in umbra, or is not contradicted by any point that is tried on it; each triangle of a penumbra is moved outward until it is
+// proved to be wholly lit. What that says of the inside is told in volumes/solids/solid_mesher.h.
+#pragma once
+
+#include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/visibility.h"
+#include "penumbra/volumes/shadow_mesh.h"
+
+namespace penumbra {
+
+/// What a solid is made of: points that see a certain fraction O of the light.
+struct ShadowLevel {
+  enum class Kind : std::uint8_t {
+    kUmbra,     ///< O = 0
+    kPenumbra,  ///< O < 1
+    kFraction,  ///< O ≤ fraction
+  };
+  Kind kind = Kind::kPenumbra;
+  double fraction = 0.5;
+};
+
+struct SolidOptions {
+  /// Scene units; 0: a hundredth of the diagonal of the casters' box. Detail of this size is kept.
+  double tolerance = 0.0;
+  /// The solid ends there. It must hold the casters. Empty: their box, grown by its diagonal on all sides.
+  Bounds bound{};
+  /// Written to tags.
+  std::uint32_t object = 0;
+  Progress progress{};
+};
+
+struct ShadowSolid {
+  /// Kinds are kSolid and, where it is cut off by the bound, kFarCap. The guarantee is kCertified where every triangle is
+  /// proved, else kWithin.
+  ShadowMesh mesh;
+  /// Scene units³ and scene units².
+  double volume = 0.0, area = 0.0;
+  /// Triangles that are proved to be on the safe side, of those that are no far caps.
+  std::size_t proved = 0, to_prove = 0;
+  /// Of the surface before it was simplified.
+  std::size_t grid_triangles = 0;
+  std::size_t grid_points = 0, evaluations = 0;
+  /// Scene units: as it was used, and the distance of grid points.
+  double tolerance = 0.0, spacing = 0.0;
+  StageTimes stages;
+};
+
+/// The bodies of the casters belong to umbra and penumbra. What is on the light's plane or behind it does not. Deterministic.
+/// Throws UsageError for a rectangle, options outside their domain, or a tolerance so small that the grid does not fit;
+/// Cancelled.
+ShadowSolid extrude_solid(const Casters& casters, const LightShape& light, const ShadowLevel& level,
+                          const SolidOptions& options = {});
+
+}  // namespace penumbra

@@ -1,0 +1,96 @@
+#include "volumes/solids/carve.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace penumbra::detail {
+namespace {
+
+/// The first pull, of an edge. Each next one is twice as far.
+constexpr double kFirstPull = 1.0 / 64;
+/// Where an edge begins that is crossed since a grid point changed sides: so far from that point.
+constexpr double kStart = 1.0 / 16;
+/// Moves what bad triangles touch.
+class Carver {
+ public:
+  Carver(SolidGrid& grid, CrossedEdges& edges, bool inward) : grid_(grid), edges_(edges), inward_(inward) {}
+
+  void pull(std::uint32_t number) {
+    CrossedEdge& e = edges_.all()[number];
+    if (e.moved) return;  // pulled already
+    e.moved = true;
+    e.pull = e.pull > 0.0 ? 2.0 * e.pull : kFirstPull;
+    e.at += inward_ ? -e.pull : e.pull;
+    if (e.at <= 0.0) flip(edges_.inner_end(e));
+    if (e.at >= 1.0) flip(edges_.outer_end(e));
+  }
+  void flip(std::uint32_t vertex) { flipped_.push_back(vertex); }
+  /// The corners that are set in `which`. Where they are grid points of a cap, those change sides.
+  void move(const GridSurface& surface, const IndexedTriangle& t, unsigned which) {
+    const std::size_t edge_count = edges_.all().size();
+    for (int k = 0; k < 3; ++k) {
+      if (!(which >> k & 1)) continue;
+      if (t[k] < edge_count)
+        pull(t[k]);
+      else
+        flip(surface.cap_points[t[k] - edge_count]);
+    }
+  }
+
+  void finish() {
+    for (const std::uint32_t v : flipped_) grid_.set_inside(v, !inward_);
+    if (!flipped_.empty()) edges_.update(inward_ ? 1.0 - kStart : kStart, kStart / 2.0);
+    flipped_.clear();
+  }
+
+ private:
+  SolidGrid& grid_;
+  CrossedEdges& edges_;
+  bool inward_;
+  std::vector<std::uint32_t> flipped_;
+};
+
+/// Of a surface, the triangles that have a corner which has moved. Of a penumbra those of caps need no judgment.
+std::vector<std::size_t> changed(const GridSurface& surface, const CrossedEdges& edges, bool with_caps) {
+  std::vector<std::size_t> out;
+  const std::size_t count = with_caps ? surface.triangles.size() : surface.inner_triangles;
+  const auto has_moved = [&](std::uint32_t v) { return v >= edges.all().size() || edges.all()[v].moved; };
+  for (std::size_t i = 0; i < count; ++i)
+    if (std::ranges::any_of(surface.triangles[i], has_moved) ||
+        (i < surface.inner_triangles && has_moved(surface.fourth[i])))
+      out.push_back(i);
+  return out;
+}
+
+}  // namespace
+
+GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& request,
+                  const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress) {
+  const bool umbra = request.region == ShadowRegion::kUmbra;
+  Carver carver(grid, edges, umbra);
+  for (bool proofs = !umbra;;) {
+    GridSurface surface = grid_surface(edges, umbra ? Diagonals::kSmaller : Diagonals::kLarger);
+    const std::vector<std::size_t> which = changed(surface, edges, umbra);
+    std::vector<IndexedTriangle> triangles;
+    for (const std::size_t i : which) triangles.push_back(surface.triangles[i]);
+    const TriangleJudge::Surface part{surface.positions, triangles};
+    const TriangleJudge::Faults faults =
+        proofs ? judge.try_proofs(part, evaluations) : judge.try_points(part, evaluations);
+    report(progress,
+           (proofs ? 0.5 : 0.0) + 0.5 * (1.0 - static_cast<double>(which.size()) /
+                                                   static_cast<double>(surface.triangles.size() + 1)));
+    for (CrossedEdge& e : edges.all()) e.moved = false;
+    const bool any = std::ranges::any_of(faults, [](std::uint8_t f) { return f != 0; });
+    if (!any && proofs) return surface;
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      if (faults[k] != 0) carver.move(surface, triangles[k], faults[k]);
+    carver.finish();
+    if (!any) {
+      proofs = true;
+      for (CrossedEdge& e : edges.all()) e.moved = true;
+    }
+  }
+}
+
+}  // namespace penumbra::detail
