@@ -146,6 +146,7 @@ TEST_F(OutputsTest, WhatHasNoEffectOrIsEmptyIsSaidInOneLine) {
         Case{drawn({"--output", path("a.exr"), "--exposure", "1"}), "--exposure has no effect"},
         Case{drawn({"--output", path("a.exr"), "--warm-up", "1"}), "--warm-up has no effect"},
         Case{{"volumes", scene_, "--penumbra", path("p.ply"), "--merge"}, "--merge has no effect"},
+        Case{{"volumes", scene_, "--penumbra", path("p.ply"), "--level", "0.3"}, "--level has no effect"},
         Case{{"volumes", nothing, "--penumbra", path("p.ply")}, "no object of the scene casts"},
         Case{{"compare", path("a.exr"), path("a.exr"), "--samples", "64"}, "--samples has no effect"},
         Case{{"compare", path("a.exr"), path("a.exr"), "--judge-pixels", "64"},
