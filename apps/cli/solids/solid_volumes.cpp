@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "apps/common/messages.h"
+#include "apps/common/outputs.h"
 #include "apps/common/scene_volumes.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/solids/extrude_solid.h"
@@ -102,11 +103,18 @@ class Writer {
       out_.json["objects"].push_back(report);
     }
     for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (!kinds[k].file.empty()) write_shadow_mesh(file_of_light(kinds[k].file, name), merge(meshes[k]));
+      if (!kinds[k].file.empty()) write_file(file_of_light(kinds[k].file, name), merge(meshes[k]));
     return std::move(out_);
   }
 
  private:
+  void write_file(const std::filesystem::path& file, const ShadowMesh& mesh) const {
+    write_shadow_mesh(file, mesh);
+    say_written(arguments_.verbose, file);
+    if (mesh.triangles.empty())
+      complain("warning: " + file.string() + " is empty: no point in the bound is in it");
+  }
+
   ShadowMesh make(const Casters& casters, const Part& part, const Wanted& kind, const Progress& progress,
                   nlohmann::json& report) {
     Bounds box;
