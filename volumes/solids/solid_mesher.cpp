@@ -56,6 +56,10 @@ class Mesher {
     } else {
       const TriangleJudge judge(request_, tree_);
       surface = carve(grid, edges, request_, judge, out_.evaluations, part_of(request_.progress, 0.4, 0.8));
+      if (request_.region == ShadowRegion::kPenumbra && fill_cavities(grid)) {
+        edges.update(0.5, 0.0);  // some are gone, none is new
+        surface = grid_surface(edges, Diagonals::kLarger);
+      }
     }
     clock_.finish("carving");
     take(std::move(surface), grid.box());
@@ -141,7 +145,7 @@ class Mesher {
 
   /// What is lit sees the light, so that it hangs together with what lies outside of the grid. What does not is a fault of the
   /// grid, or a body that is open at a hole finer than it.
-  static void fill_cavities(SolidGrid& grid) {
+  static bool fill_cavities(SolidGrid& grid) {
     std::vector<char> reached(grid.size(), 0);
     std::vector<std::uint32_t> waiting;
     const auto reach = [&](std::uint32_t v) {
@@ -158,12 +162,15 @@ class Mesher {
     while (!waiting.empty()) {
       const std::uint32_t v = waiting.back();
       waiting.pop_back();
-      for (unsigned k = 0; k < 3; ++k)
-        for (const std::uint32_t next : {grid.beyond(v, 1u << k), grid.before(v, 1u << k)})
-          if (next != SolidGrid::kNone) reach(next);
+      for_each_edge_at(grid, v, [&](std::uint32_t, unsigned, std::uint32_t next) { reach(next); });
     }
-    for (std::uint32_t v = 0; v < grid.size(); ++v)
-      if (!reached[v]) grid.set_inside(v, true);
+    bool any = false;
+    for (std::uint32_t v = 0; v < grid.size(); ++v) {
+      if (reached[v] || grid.is_inside(v)) continue;
+      grid.set_inside(v, true);
+      any = true;
+    }
+    return any;
   }
 
   /// The tetrahedron of the grid that holds a point: its diagonal's cube is entered by the largest coordinate first.
