@@ -48,6 +48,7 @@ int parse_and_run(CLI::App& app, int argc, char** argv) {
 
 int run_command_line(int argc, char** argv) {
   clean_up_when_interrupted();
+  say_where_memory_is_used_up();
   register_drawing_methods();
   CLI::App app(kDescription, "penumbra");
   app.set_version_flag("--version", "penumbra " PENUMBRA_VERSION);

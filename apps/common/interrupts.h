@@ -1,4 +1,4 @@
-// What an interrupt leaves: no temporary file.
+// How a program ends early: without temporary files, and with a line where there is no memory.
 #pragma once
 
 namespace penumbra::apps {
@@ -7,5 +7,9 @@ namespace penumbra::apps {
 /// ends the program as it would have. Signals that are ignored stay so. A file that grows beyond the limit of its size is
 /// an error of writing.
 void clean_up_when_interrupted();
+
+/// From here on a crash where memory is used up (drivers of OpenGL do not ask whether they got it), and an exception for want
+/// of memory that nothing catches, end the program with one line and the exit code of a failure. Other crashes stay as they are.
+void say_where_memory_is_used_up();
 
 }  // namespace penumbra::apps

@@ -169,10 +169,14 @@ std::array<DiskPoints, CenterRays::kPatterns> interleaved_points() {
 
 }  // namespace
 
-SeenPoints CenterRays::look(const CircularLight& light, std::uint32_t pixel, std::size_t pattern) const {
+std::span<const detail::DiskPoint> CenterRays::points(std::size_t pattern) {
   static const auto patterns = interleaved_points();
+  return patterns[pattern];
+}
+
+SeenPoints CenterRays::look(const CircularLight& light, std::uint32_t pixel, std::size_t pattern) const {
   const std::uint32_t at = place_[pixel];
-  SeenPoints out{patterns[pattern]};
+  SeenPoints out{points(pattern)};
   const LightFrame axes = light_frame(light);
   const Vec3 u = light.radius * axes.u, v = light.radius * axes.v;
   const Vec3 from(x_[at], y_[at], z_[at]), n(nx_[at], ny_[at], nz_[at]), center = way_to_center(light, from);

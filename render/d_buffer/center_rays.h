@@ -40,6 +40,7 @@ class CenterRays {
   /// and W. Heidrich 2001). The share of the points on one side of a chord is off by .037 (root mean square over all
   /// chords) for one pattern, at most by .14, and by .007 for the mean of nine.
   static constexpr std::size_t kPatterns = 9;
+  static std::span<const detail::DiskPoint> points(std::size_t pattern);
   /// Which points of its pattern each of the given pixels sees, all of which see a surface. Cost: sixteen rays a pixel,
   /// on all cores.
   std::vector<SeenPoints> seen_points(const CircularLight& light,

@@ -284,7 +284,8 @@ bool Resampler::is_doubtful(std::uint32_t i) const {
   const float weight = weight_of(i, mean);
   if (!(weight > 0.0f)) return false;
   if (mean.samples == kAllSamples) return mean.bend > kMostBend;
-  return weight < 1.0f || is_at_border(image_, i) || neighbors_on_surface(image_, i) == 4;
+  const int neighbors = neighbors_on_surface(image_, i);
+  return is_at_border(image_, i) || neighbors == 4 || (neighbors > 1 && weight < 1.0f);
 }
 
 void Resampler::sample_thoroughly(const SampleVisibility& sample) {

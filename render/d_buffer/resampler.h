@@ -116,8 +116,8 @@ class Resampler {
   float difference(std::uint32_t i, const Mean& mean) const;
   /// How far the mean takes the place of what entries say: 0 to 1.
   float weight_of(std::uint32_t i, const Mean& mean) const;
-  /// Sixteen points are too few: there are no neighbors all round to average with, or the means differ. Where rays deny
-  /// entries beyond doubt leaves, twigs and outlines are left at that: in a tree they would take longer than all the rest.
+  /// Sixteen points are too few: there are no neighbors all round to average with, or the means differ. Leaves are left at
+  /// that, and twigs and outlines where rays deny entries beyond doubt: in a tree they would take longer than all the rest.
   bool is_doubtful(std::uint32_t i) const;
   /// Samples these at all points.
   void sample_thoroughly(const SampleVisibility& sample);

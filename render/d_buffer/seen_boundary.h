@@ -65,6 +65,8 @@ class SeenEntries {
   /// `uses`: two. The rest as of SeenBoundary.
   SeenEntries(std::span<const glm::vec4> records, std::span<const EntryUse> uses, const Vec3& x, bool hidden);
   bool is_lit(const glm::dvec2& point) const;
+  /// Then the shader knows the area only as far as its chords tell.
+  bool are_two() const { return first_ && second_; }
 
  private:
   std::optional<SeenBoundary> first_, second_;

@@ -258,6 +258,16 @@ std::vector<EntryUse> VisibilityPass::read_uses() const {
   return out;
 }
 
+/// What entries say, by points of the disk where the shader knows the area of two boundaries by their chords alone.
+float area_of(const SeenEntries& entries, float by_shader) {
+  constexpr float kNoise = 0.02f;  // three times that of the points
+  if (!entries.are_two()) return by_shader;
+  float lit = 0.0f, all = 0.0f;
+  for (std::size_t pattern = 0; pattern < CenterRays::kPatterns; ++pattern)
+    for (const DiskPoint& p : CenterRays::points(pattern)) lit += entries.is_lit({p.x, p.y}), ++all;
+  return std::abs(lit / all - by_shader) > kNoise ? lit / all : by_shader;
+}
+
 /// What rays find otherwise is added to what entries say, whose area is exact. But where fewer points are seen than are
 /// denied, or fewer are hidden, their own share has less noise.
 RaySample VisibilityPass::sample_of(std::uint32_t pixel, std::span<const SeenPoints> seen,
@@ -265,6 +275,7 @@ RaySample VisibilityPass::sample_of(std::uint32_t pixel, std::span<const SeenPoi
                                     float by_entries) const {
   const SeenEntries entries(geometry.records, uses.subspan(2 * std::size_t{pixel}, 2),
                             Vec3(texels_.positions[pixel]), seen_[pixel] < 0.5f);
+  const float area = area_of(entries, by_entries);
   int traced = 0, lit = 0, more = 0, denied = 0;
   for (const SeenPoints& s : seen)
     for (unsigned k = 0; k < s.points.size(); ++k) {
@@ -275,14 +286,13 @@ RaySample VisibilityPass::sample_of(std::uint32_t pixel, std::span<const SeenPoi
       more += int{sees} - int{expected};
       denied += int{sees != expected};
     }
-  RaySample out{by_entries, denied > 0, traced > 0 && lit == 0, traced > 0 && lit == traced};
+  RaySample out{area, area != by_entries || denied > 0, traced > 0 && lit == 0, traced > 0 && lit == traced};
   if (denied == 0) return out;
   const auto share = [&](int points) {
     return open_[pixel] * static_cast<float>(points) / static_cast<float>(traced);
   };
-  out.visibility = denied >= std::min(lit, traced - lit)
-                       ? share(lit)
-                       : std::clamp(by_entries + share(more), 0.0f, open_[pixel]);
+  out.visibility =
+      denied >= std::min(lit, traced - lit) ? share(lit) : std::clamp(area + share(more), 0.0f, open_[pixel]);
   return out;
 }
 

@@ -1,5 +1,8 @@
 #include "render/gl/context.h"
 
+#include <new>
+#include <string>
+
 #include "penumbra/mesh/error.h"
 #include "render/gl/context_backends.h"
 
@@ -19,9 +22,16 @@ std::unique_ptr<Context> make_context(Backend backend) {
   return backend == Backend::kOsMesa ? make_osmesa_context() : make_egl_context();
 }
 
+void require_memory_for_library(const char* reason) {
+  const std::string text = reason != nullptr ? reason : "";
+  for (const char* sign : {"failed to map segment", "Cannot allocate memory", "out of memory"})
+    if (text.find(sign) != std::string::npos) throw std::bad_alloc();
+}
+
 std::string renderer_string(const Functions& gl) {
   const auto text = [&](GLenum what) {
-    return std::string(reinterpret_cast<const char*>(gl.GetString(what)));
+    const auto* found = reinterpret_cast<const char*>(gl.GetString(what));
+    return std::string(found != nullptr ? found : "unknown");
   };
   return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }

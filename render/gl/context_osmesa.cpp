@@ -4,6 +4,8 @@
 #include <dlfcn.h>
 
 #include <array>
+#include <cerrno>
+#include <new>
 #include <vector>
 
 #include "penumbra/mesh/error.h"
@@ -38,6 +40,7 @@ const Library& library() {
     Library lib;
     for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
       if ((lib.handle = dlopen(name, RTLD_NOW | RTLD_LOCAL))) break;
+    if (!lib.handle) require_memory_for_library(dlerror());
     if (!lib.handle)
       throw SystemError(
           "cannot open libOSMesa.so.8: install the Debian package libosmesa6, or use option backend egl");
@@ -56,7 +59,9 @@ class OsMesa final : public Context {
     const std::array<int, 13> wanted{kFormat,  kRgba,        kDepthBits,    24, kStencilBits,  8,
                                      kProfile, kCoreProfile, kMajorVersion, 4,  kMinorVersion, 5,
                                      0};
+    errno = 0;
     context_ = library().create(wanted.data(), nullptr);
+    if (!context_ && errno == ENOMEM) throw std::bad_alloc();
     if (!context_)
       throw SystemError(
           "OSMesa gives no OpenGL 4.5 core context: install Mesa 22 or newer, or use option backend egl");

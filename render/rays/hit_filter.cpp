@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "mesh/vectors.h"
 
@@ -47,16 +48,20 @@ bool is_own(const RayPacket& packet, std::size_t k, const RayGeometry& geometry,
   return packet.face[k] == face && packet.object[k] == static_cast<std::int32_t>(geometry.object);
 }
 
-/// Whether the hit counts, by double and exact predicates where that is needed.
-bool counts(const Hit& hit, const RayGeometry& geometry, const HitQuery& query) {
+/// The face that the hit stands for, by double and exact predicates where that is needed; none if it does not count.
+std::optional<std::uint32_t> face_of(const Hit& hit, const RayGeometry& geometry, const HitQuery& query) {
   const std::uint32_t face = geometry.face(hit.primitive);
-  if (is_own(query.packet, hit.ray, geometry, face)) return false;
+  if (is_own(query.packet, hit.ray, geometry, face)) return std::nullopt;
   const bool between = hit.is_between(query.rays, geometry);
-  if (between && hit.is_within(geometry)) return true;
-  if (!between && hit.is_beyond(query.rays, geometry)) return false;
+  if (between && hit.is_within(geometry)) return face;
+  if (!between && hit.is_beyond(query.rays, geometry)) return std::nullopt;
   const SegmentEnds ends = ends_of(query.packet, hit.ray, query.group.frame);
   const FaceCorners corners = geometry.corners(face);
-  return (between || separates(corners, ends.x, ends.q)) && line_meets(corners, ends.x, ends.q);
+  if ((between || separates(corners, ends.x, ends.q)) && line_meets(corners, ends.x, ends.q)) return face;
+  if (!is_flat(corners, ends.q - ends.x, kGrazing)) return std::nullopt;
+  const bool own = query.packet.object[hit.ray] == static_cast<std::int32_t>(geometry.object);
+  return hiding_face_along(geometry.scaled(), face, own ? query.packet.face[hit.ray] : -1, ends.x, ends.q,
+                           {kBeside});
 }
 
 /// Where ray k meets the face's plane, in units of its way.
@@ -71,6 +76,12 @@ HitQuery::HitQuery(const RayPacket& packet_, const GroupRays& rays_, const RayGr
     : packet(packet_), rays(rays_), group(group_) {
   rtcInitIntersectContext(&context);
   context.flags = flags;
+}
+
+bool is_flat(const FaceCorners& face, const Vec3& way, double sine) {
+  const Vec3 n = glm::cross(face.b - face.a, face.c - face.a);
+  const double across = glm::dot(n, way);
+  return across * across < sine * sine * glm::dot(n, n) * glm::dot(way, way);
 }
 
 double distance_to(const RayGeometry& geometry, std::uint32_t face, const Vec3& from, const Vec3& way) {
@@ -92,7 +103,7 @@ void filter_occluded(const RTCFilterFunctionNArguments* arguments) {
   const auto& geometry = *static_cast<const RayGeometry*>(arguments->geometryUserPtr);
   HitQuery& query = *reinterpret_cast<HitQuery*>(arguments->context);
   for (unsigned i = 0; i < arguments->N; ++i)
-    if (arguments->valid[i] && !counts(Hit(*arguments, i), geometry, query)) arguments->valid[i] = 0;
+    if (arguments->valid[i] && !face_of(Hit(*arguments, i), geometry, query)) arguments->valid[i] = 0;
 }
 
 /// An accepted hit leaves the ray longer than itself, by the errors of two places, so that Embree still reports faces
@@ -111,11 +122,13 @@ void filter_nearest(const RTCFilterFunctionNArguments* arguments) {
     const bool is_behind =
         best.geometry && (is_close ? distance_of(query, hit.ray, mine) >= distance_of(query, hit.ray, best)
                                    : mine.at > best.at);
-    if (is_behind || !counts(hit, geometry, query)) {
+    const auto face = is_behind ? std::nullopt : face_of(hit, geometry, query);
+    if (!face) {
       arguments->valid[i] = 0;
       continue;
     }
     best = mine;
+    best.face = *face;
     RTCRayN_tfar(arguments->ray, arguments->N, i) = mine.at + mine.error + kMostError;
   }
 }

@@ -18,7 +18,10 @@
 // misplaces an edge; by less where faces are so small that many would overlap. A hit that lies within the face by g and
 // by that error is clear. It lies w |N| / e from a side of length e with the barycentric coordinate w, and the error is
 // divided by the sine at which the ray meets the face, |D| / (|N| |d|), so w |D| > 7/4 (g + error) L suffices, |d| < 7/4.
-// What is left to float are rays that graze both faces of an edge: there a silhouette is off by roundings.
+//
+// Where a ray grazes the surface, sides are misplaced by more than g. So where a face is reported by float but not met, its
+// neighbors are looked at (segment_face.h); and where a ray leaves its own face as flat, those of that face, in case
+// float passes over all that lies on the way. What is left to float are rays that graze both faces of a silhouette.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -33,6 +36,10 @@ namespace penumbra::detail {
 inline constexpr double kClear = 0x1p-24 * 192.0;
 /// Accuracy and speed: g, and how much of the mean edge it is at most.
 inline constexpr double kMostGrown = 0x1p-18, kLeastGrown = 0x1p-21, kGrownOfEdge = 0x1p-6;
+
+/// Accuracy and speed. Sines at which a ray grazes a face that it misses, and its own; how far the surface is followed
+/// beside the ray, in the frame.
+inline constexpr double kGrazing = 0.25, kLeavesFlat = 0x1p-6, kBeside = 0x1p-18;
 
 /// The nearest face so far.
 struct NearestHit {
@@ -53,6 +60,9 @@ struct HitQuery {
   /// One a ray; for filter_nearest.
   NearestHit* nearest = nullptr;
 };
+
+/// The sine at which a way meets a face is less than that.
+bool is_flat(const FaceCorners& face, const Vec3& way, double sine);
 
 /// Where the ray meets the face's plane, in units of its way, in double. Not finite where it runs along the plane.
 double distance_to(const RayGeometry& geometry, std::uint32_t face, const Vec3& from, const Vec3& way);

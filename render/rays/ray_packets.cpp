@@ -39,12 +39,34 @@ void find_occluded_by(const RayGroup& group, RayPacket& packet, Coherence cohere
     packet.occluded[k] |= rays.valid[k] & (rays.ray.tfar[k] < 0.0f ? -1 : 0);
 }
 
+/// Rays that leave their own face so flat that float may pass over all that stands on it.
+void find_occluded_beside_own(const RayScene::Impl& rays, RayPacket& packet) {
+  std::int32_t object = -1;
+  std::uint32_t face = 0;
+  RayScene::Impl::OfObject of;
+  FaceCorners corners{};
+  for (std::size_t k = 0; k < kRays; ++k) {
+    if ((packet.wanted[k] & ~packet.occluded[k]) == 0 || packet.object[k] < 0) continue;
+    if (packet.object[k] != object || packet.face[k] != face) {
+      object = packet.object[k], face = packet.face[k];
+      of = rays.of_face(object, face);
+      if (of.geometry) corners = of.geometry->corners(face);
+    }
+    if (!of.geometry || !is_flat(corners, packet.way(k), kLeavesFlat)) continue;
+    const SegmentEnds ends = ends_of(packet, k, of.group->frame);
+    if (hiding_face_along(of.geometry->scaled(), face, face, ends.x, ends.q,
+                          {.reach = kBeside, .forward_only = true}))
+      packet.occluded[k] = -1;
+  }
+}
+
 }  // namespace
 
 void find_occluded(const RayScene& rays, RayPacket& packet, Coherence coherence) {
   std::fill_n(packet.occluded, kRays, 0);
   GroupRays of_group;
   for (const auto& group : rays.impl().casters) find_occluded_by(*group, packet, coherence, of_group);
+  find_occluded_beside_own(rays.impl(), packet);
 }
 
 std::optional<RayHit> first_hit(const RayScene& rays, const Ray& ray) {

@@ -3,9 +3,9 @@
 // In: receivers and ways in world coordinates, double. Out: whether a face of a caster lies on the way, or which.
 // Embree's float rays are a filter: what they cannot tell is decided in double (hit_filter.h), so that rays start
 // exactly at the receiver and end exactly at the light. A face in whose plane the receiver or the light point lies, as
-// far as double can tell, hides nothing, nor does the receiver's own face. Only where a ray grazes both faces of an edge, and
-// passes it within float's rounding of the group's frame (ray_groups.h), some 1e-7 of its extent, may either answer come
-// out.
+// far as double can tell, hides nothing, nor does the receiver's own face. Only where a ray grazes both faces of a silhouette edge,
+// and passes it within float's rounding of the group's frame (ray_groups.h), some 1e-7 of its extent, may either answer
+// come out.
 //
 // Methods trace with these; Embree itself is included by render/rays only. The orientation of faces does not matter.
 // Any number of threads may trace at once, best inside of RayScene::arena().

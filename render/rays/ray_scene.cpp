@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <new>
 
 #include "mesh/vectors.h"
 #include "render/rays/hit_filter.h"
@@ -17,8 +18,12 @@ namespace penumbra {
 namespace detail {
 namespace {
 
-void throw_embree_error(void*, RTCError, const char* text) {
-  throw SystemError(std::string("Embree: ") + text);
+void throw_embree_error(void*, RTCError error, const char* text) {
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  const std::string reason = text != nullptr ? text : "unknown error";
+  const bool of_threads = reason.find("pthread_create") != std::string::npos;
+  throw SystemError("Embree: " + reason +
+                    (of_threads ? "; not enough memory for threads, or too many of them" : ""));
 }
 
 struct EdgeLengths {
@@ -103,12 +108,6 @@ RayGeometry::RayGeometry(const TriangleMesh& mesh_, const RayPart& part, const G
   border = static_cast<float>(1.75 * (grown + std::max(kLeastGrown, 0.5 * grown)) * longest);
 }
 
-FaceCorners RayGeometry::corners(std::uint32_t mesh_face) const {
-  const IndexedTriangle& t = mesh.triangles()[mesh_face];
-  const auto p = mesh.positions();
-  return {p[t[0]] * scale, p[t[1]] * scale, p[t[2]] * scale};
-}
-
 RayGroup::RayGroup(RTCDevice device, const Scene& scene_of, const RayPartGroup& group)
     : frame(frame_of(group.bounds)), scene(rtcNewScene(device)) {
   rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
@@ -121,23 +120,36 @@ RayGroup::RayGroup(RTCDevice device, const Scene& scene_of, const RayPartGroup& 
 }
 
 RayGroup::~RayGroup() {
-  rtcReleaseScene(scene);
+  if (scene != nullptr) rtcReleaseScene(scene);
 }
 
 }  // namespace detail
 
 RayScene::Impl::Impl(const Scene& scene, tbb::task_arena& threads) {
   device = rtcNewDevice(nullptr);
-  if (!device)
-    throw SystemError("Embree does not start: no device (error " +
-                      std::to_string(rtcGetDeviceError(nullptr)) + ")");
+  if (!device) {
+    const RTCError error = rtcGetDeviceError(nullptr);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw SystemError("Embree does not start: no device (error " + std::to_string(error) + ")");
+  }
   rtcSetDeviceErrorFunction(device, detail::throw_embree_error, nullptr);
   threads.execute([&] {
     for (const bool casts : {true, false})
       for (const detail::RayPartGroup& group : detail::group_by_scale(scene, casts))
         (casts ? casters : others).push_back(std::make_unique<detail::RayGroup>(device, scene, group));
-    for (const auto* groups : {&casters, &others})
-      for (const auto& group : *groups) rtcCommitScene(group->scene);
+    of_object.resize(scene.objects.size());
+    for (const auto& group : casters)
+      for (const auto& geometry : group->geometries)
+        of_object[geometry->object] = {group.get(), geometry.get()};
+    try {
+      for (const auto* groups : {&casters, &others})
+        for (const auto& group : *groups) rtcCommitScene(group->scene);
+    } catch (...) {
+      // To release a scene that could not be committed, for want of memory, waits for ever (Embree 3.13): it is left.
+      for (const auto* groups : {&casters, &others})
+        for (const auto& group : *groups) group->scene = nullptr;
+      throw;
+    }
   });
 }
 

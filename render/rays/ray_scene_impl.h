@@ -23,7 +23,8 @@ struct RayGeometry {
   /// Of the object's mesh, by Embree's number.
   std::uint32_t face(std::uint32_t primitive) const { return faces.empty() ? primitive : faces[primitive]; }
   /// In world coordinates times the frame's scale: exact, and of a size that products bear.
-  FaceCorners corners(std::uint32_t mesh_face) const;
+  FaceCorners corners(std::uint32_t mesh_face) const { return scaled().corners(mesh_face); }
+  ScaledMesh scaled() const { return {mesh, scale}; }
 
   TriangleMesh mesh;
   std::uint32_t object;
@@ -60,6 +61,18 @@ struct RayScene::Impl {
   RTCDevice device = nullptr;
   /// What hides lights, and the rest of what a camera sees.
   std::vector<std::unique_ptr<detail::RayGroup>> casters, others;
+  /// Of each object that casts some of its faces as a group has them, else empty.
+  struct OfObject {
+    const detail::RayGroup* group = nullptr;
+    const detail::RayGeometry* geometry = nullptr;
+  };
+  std::vector<OfObject> of_object;
+  /// Of the object that has a face; empty where there is no such face.
+  OfObject of_face(std::int32_t object, std::uint32_t face) const {
+    const auto at = static_cast<std::size_t>(object);
+    if (object < 0 || at >= of_object.size() || !of_object[at].geometry) return {};
+    return face < of_object[at].geometry->mesh.triangles().size() ? of_object[at] : OfObject{};
+  }
 };
 
 }  // namespace penumbra

@@ -95,6 +95,13 @@ void bench_judge(Record& record, const SceneNames& scenes);
 /// d_buffer_bench.cpp: the D-buffer against rays of the same error; its cost by its size, by faces and by the light's radius.
 void bench_d_buffer(Record& record, const SceneNames& scenes);
 
+/// d_buffer_judge_bench.cpp: the D-buffer's options against rays in double without offset.
+void bench_d_buffer_judge(Record& record, const SceneNames& scenes);
+
+/// d_buffer_check_bench.cpp: the D-buffer with and without its rays against the silhouette method, at three sizes. No
+/// scenes: all.
+void bench_d_buffer_check(Record& record, const SceneNames& scenes);
+
 /// silhouette_bench.cpp: the silhouette method against rays, visibility alone; what is certified.
 void bench_silhouette(Record& record, const SceneNames& scenes);
 /// The same file: 1,000 times the faces, and lights of 16 times the radius.

@@ -84,23 +84,33 @@ def scenes_of(part, suffix):
 
 # The tables. Each takes one part and returns markdown.
 
-def errors_by(columns):
+def errors_by(columns, suffix="/silhouette/frame"):
     def both(part, scene, method):
         floor, casters = (part.median(f"{scene}/{method}/RMSE {where}") for where in ("floor", "casters"))
         return error(floor) if not casters else f"{error(floor)} ; {error(casters)}"
 
     def table(part):
         rows = [[scene] + [both(part, scene, method) for method in columns.values()]
-                for scene in scenes_of(part, "/silhouette/frame")]
+                for scene in scenes_of(part, suffix)]
         return markdown(["scene", *columns], rows)
     return table
 
 
 ALL_ERRORS = errors_by({"`dbuffer`": "dbuffer", "`occlusion-textures`": "occlusion-textures", "`hard`": "hard",
                         "16 rays": "reference, 16 rays", "64 rays": "reference, 64 rays", "256 rays": "reference, 256 rays"})
-DBUFFER_ERRORS = errors_by({"default": "dbuffer", "two entries": "dbuffer, two entries",
-                            "no rays asked": "dbuffer, no rays asked", "furthest": "dbuffer, furthest",
-                            "the paper's": "dbuffer, the paper's"})
+DBUFFER_ERRORS = errors_by({name: name for name in ("default", "two entries", "no rays asked", "furthest", "the paper's")},
+                           "/pixels in penumbra")
+
+
+def checked(part):
+    scenes = ["triangle-small", "speck-small", "cube-small", "cube-large", "boxes-large", "bunny-small", "armadillo-medium",
+              "foliage-medium", "building", "tree"]
+    sizes = ["160x120", "640x480", "1280x960"]
+    rows = [[scene] + [" ; ".join(error(part.median(f"{scene}/{size}/{check}/RMSE")) for check in ("rays", "none"))
+                       for size in sizes] for scene in scenes]
+    return markdown(["scene", *(size.replace("x", "×") for size in sizes)], rows)
+
+
 OCCLUSION_ERRORS = errors_by({"default": "occlusion-textures", "8 slices": "occlusion-textures, 8 slices",
                               "all faces": "occlusion-textures, all faces"})
 
@@ -252,7 +262,8 @@ def methods(part, scene="armadillo-medium"):
 TABLES = {
     "methods": lambda: first_machine("accuracy", methods),
     "accuracy": lambda: first_machine("accuracy", ALL_ERRORS),
-    "dbuffer-error": lambda: first_machine("accuracy", DBUFFER_ERRORS),
+    "dbuffer-error": lambda: first_machine("dbuffer-judge", DBUFFER_ERRORS),
+    "dbuffer-check": lambda: first_machine("dbuffer-check", checked),
     "occlusion-error": lambda: first_machine("accuracy", OCCLUSION_ERRORS),
     "silhouette-error": lambda: first_machine("silhouette", silhouette_errors),
     "judge": lambda: first_machine("judge", judged),

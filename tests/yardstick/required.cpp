@@ -26,8 +26,7 @@ const std::vector<std::string>& required() {
       "certificates/*",
       "cases/blinds/silhouette",
       "patterns/*/silhouette",
-      "merging/bump_plate/silhouette",
-      "merging/bodies/silhouette",
+      "merging/*/silhouette",
   };
   return kRequired;
 }

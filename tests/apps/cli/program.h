@@ -63,6 +63,9 @@ class ProgramTest : public testing::Test {
   /// `input`: what the program reads from standard input.
   Outcome run(std::vector<std::string> arguments, const std::string& input = "/dev/null") const {
     arguments.insert(arguments.begin(), std::string(PENUMBRA_BIN) + "/penumbra");
+    return run_program(std::move(arguments), input);
+  }
+  Outcome run_program(std::vector<std::string> arguments, const std::string& input = "/dev/null") const {
     std::vector<char*> argv;
     for (std::string& each : arguments) argv.push_back(each.data());
     argv.push_back(nullptr);

@@ -146,6 +146,71 @@ TEST(ExactRays, ALampInAWallsPlaneLightsTheWall) {
   }
 }
 
+/// A plate with tiny faces in its middle, and waves of some height there.
+TriangleMesh waved_plate(Random& random, int side, double least, double height) {
+  std::vector<double> steps;
+  for (int i = -side; i <= side; ++i)
+    steps.push_back(i == 0 ? 0.0 : std::copysign(std::pow(least, 1.0 - std::abs(i) / double(side)), i));
+  std::vector<Vec3> points;
+  for (const double y : steps)
+    for (const double x : steps)
+      points.push_back(
+          {x, y, std::max(std::abs(x), std::abs(y)) < 0.5 ? height * random.uniform(0.0, 1.0) : 0.0});
+  const auto columns = static_cast<std::uint32_t>(steps.size());
+  std::vector<IndexedTriangle> faces;
+  for (std::uint32_t j = 0; j + 1 < columns; ++j)
+    for (std::uint32_t i = 0; i + 1 < columns; ++i) {
+      const std::uint32_t k = j * columns + i;
+      faces.push_back({k, k + 1, k + columns + 1});
+      faces.push_back({k, k + columns + 1, k + columns});
+    }
+  return testing::mesh_of(points, faces);
+}
+
+/// So flat over the waves that float's rounding of the plate may be more than their height.
+RayCase ray_along(Random& random, const testing::FacePoint& at, bool from_face, double steep, double height) {
+  const Vec3 side = random.direction(), along = glm::normalize(Vec3(side.x, side.y, 0.0));
+  RayCase ray;
+  if (from_face) {
+    ray.from = {at.point, 0, at.face};
+    ray.way = random.uniform(1.0, 5.0) * (along + steep * random.spread(1e-2, 3.0) * at.normal);
+  } else {
+    const double over = height * random.spread(1e-2, 100.0);
+    ray.from = {.point = at.point - random.uniform(1.2, 4.0) * along + Vec3(0, 0, over)};
+    ray.way = 2.0 * (at.point + Vec3(0, 0, height * random.uniform(-0.2, 1.2)) - ray.from.point);
+  }
+  return ray;
+}
+
+/// From faces none may be wrong. From the air float passes over some waves that are lower than its rounding.
+TEST(ExactRays, AgreeAlongSurfaces) {
+  for (const bool from_face : {true, false}) {
+    Random random(406);
+    std::size_t wrong = 0, blocked = 0, free = 0;
+    for (int plate = 0; plate < 24; ++plate) {
+      const double least = random.spread(1e-5, 1e-1), height = least * random.spread(1e-5, 0.3);
+      const std::vector<TriangleMesh> meshes{waved_plate(random, 12, least, height)};
+      const testing::Motion motion = testing::Motion::random(random);  // else floats know z well
+      const auto p = meshes[0].positions();
+      const auto faces = meshes[0].triangles();
+      RayJudge judge({testing::mesh_of(motion({p.begin(), p.end()}), {faces.begin(), faces.end()})});
+      for (int i = 0; i < 2'000; ++i) {
+        const testing::FacePoint at = testing::random_face_point(random, meshes);
+        if (std::abs(at.point.x) > 0.7 || std::abs(at.point.y) > 0.7) continue;
+        RayCase ray = ray_along(random, at, from_face, height / least, height);
+        ray.from.point = motion(ray.from.point), ray.way = motion.turned(ray.way);
+        judge.add(ray);
+      }
+      judge.finish();
+      wrong += judge.wrong(), blocked += judge.blocked(), free += judge.free();
+    }
+    std::printf("%zu of %zu rays along surfaces differ\n", wrong, blocked + free);
+    EXPECT_GT(blocked, 5'000u);
+    EXPECT_GT(free, 2'000u);
+    EXPECT_LE(wrong, from_face ? 0u : 300u);
+  }
+}
+
 /// A ray that grazes both faces of an edge is the one thing that float decides. Few do.
 TEST(ExactRays, AgreeOnSmoothSilhouettesButForFew) {
   Random random(405);
