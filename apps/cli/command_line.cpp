@@ -57,6 +57,7 @@ int run_command_line(int argc, char** argv) {
   app.get_formatter()->column_width(36);
   add_render_command(app);
   add_volumes_command(app);
+  add_field_command(app);
   add_inspect_command(app);
   add_classify_command(app);
   add_compare_command(app);

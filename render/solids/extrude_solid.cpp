@@ -6,6 +6,7 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/volumes/volumes.h"
 #include "render/casters_impl.h"
+#include "render/solids/tiled_points.h"
 #include "volumes/solids/solid_mesher.h"
 
 namespace penumbra {
@@ -29,13 +30,9 @@ std::vector<TriangleMesh> casting_meshes(const Casters& casters) {
   return meshes;
 }
 
-/// Merged edges would move silhouettes.
 detail::JudgePoints judge_of(const Casters& casters, const LightShape& light) {
-  return [&casters, light](std::span<const Vec3> points) {
-    VisibilityOptions options;
-    options.options["silhouette-tolerance"] = 0.0;
-    return visibility(casters, light, {.points = points}, options).visibility;
-  };
+  return
+      [&casters, light](std::span<const Vec3> points) { return detail::seen_from(casters, light, points); };
 }
 
 Bounds bound_of(std::span<const TriangleMesh> meshes, const SolidOptions& options) {

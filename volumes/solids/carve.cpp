@@ -18,7 +18,7 @@ class Carver {
 
   void pull(std::uint32_t number) {
     CrossedEdge& e = edges_.all()[number];
-    if (e.moved) return;  // pulled already
+    if (e.moved || e.in_wall) return;  // pulled already, or fixed
     e.moved = true;
     e.pull = e.pull > 0.0 ? 2.0 * e.pull : kFirstPull;
     e.at += inward_ ? -e.pull : e.pull;
@@ -51,14 +51,18 @@ class Carver {
   std::vector<std::uint32_t> flipped_;
 };
 
-/// Of a surface, the triangles that have a corner which has moved. Of a penumbra those of caps need no judgment.
+/// Of a surface, the triangles that have a corner which has moved. Of a penumbra those of caps and those in the light's plane need no
+/// judgment.
 std::vector<std::size_t> changed(const GridSurface& surface, const CrossedEdges& edges, bool with_caps) {
   std::vector<std::size_t> out;
   const std::size_t count = with_caps ? surface.triangles.size() : surface.inner_triangles;
   const auto has_moved = [&](std::uint32_t v) { return v >= edges.all().size() || edges.all()[v].moved; };
+  const auto in_wall = [&](std::uint32_t v) { return v < edges.all().size() && edges.all()[v].in_wall; };
   for (std::size_t i = 0; i < count; ++i)
-    if (std::ranges::any_of(surface.triangles[i], has_moved) ||
-        (i < surface.inner_triangles && has_moved(surface.fourth[i])))
+    if (std::ranges::all_of(surface.triangles[i], in_wall))
+      continue;
+    else if (std::ranges::any_of(surface.triangles[i], has_moved) ||
+             (i < surface.inner_triangles && has_moved(surface.fourth[i])))
       out.push_back(i);
   return out;
 }

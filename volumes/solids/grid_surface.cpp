@@ -207,7 +207,12 @@ void CrossedEdges::update(double at, double pull) {
       first_[v] = next;
       for (unsigned bits = 1; bits < 8; ++bits) {
         if (!(crossed_[v] >> (bits - 1) & 1)) continue;
-        CrossedEdge e{v, static_cast<std::uint8_t>(bits), grid_.is_inside(v), true, at, pull};
+        CrossedEdge e{.from = v,
+                      .bits = static_cast<std::uint8_t>(bits),
+                      .from_is_inside = grid_.is_inside(v),
+                      .at = at,
+                      .pull = pull};
+        if (wall_) put_into_wall(e);
         while (known != old.end() && std::pair(known->from, known->bits) < std::pair(e.from, e.bits)) ++known;
         if (known != old.end() && known->from == e.from && known->bits == e.bits &&
             known->from_is_inside == e.from_is_inside)
@@ -216,6 +221,16 @@ void CrossedEdges::update(double at, double pull) {
       }
     }
   });
+}
+
+/// A little in front of it, so that what is told of points in front holds.
+void CrossedEdges::put_into_wall(CrossedEdge& e) const {
+  constexpr double kInFront = 1e-6;
+  const double inner = glm::dot(wall_->normal, grid_.point(inner_end(e))) - wall_->offset,
+               outer = glm::dot(wall_->normal, grid_.point(outer_end(e))) - wall_->offset;
+  if (!(inner > 0.0) || outer > 0.0) return;
+  e.in_wall = true;
+  e.at = (1.0 - kInFront) * inner / (inner - outer);
 }
 
 std::uint32_t CrossedEdges::number(std::uint32_t from, unsigned bits) const {

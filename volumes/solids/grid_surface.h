@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "penumbra/mesh/types.h"
@@ -18,6 +19,8 @@ struct CrossedEdge {
   std::uint32_t from;  ///< lower vertex
   std::uint8_t bits;   ///< to the upper one, see SolidGrid
   bool from_is_inside;
+  /// It lies in the wall, and stays there.
+  bool in_wall = false;
   /// It has moved since its triangles were looked at.
   bool moved = true;
   /// Of the edge, from its inner end on, in (0, 1).
@@ -37,10 +40,17 @@ struct GridSurface {
   std::size_t inner_triangles = 0;
 };
 
+/// A plane behind which nothing is inside: normal · p > offset in front of it. Crossed edges that lead behind it end there.
+struct GridWall {
+  Vec3 normal;
+  double offset;
+};
+
 /// The crossed edges of a grid, ascending by lower vertex and bits.
 class CrossedEdges {
  public:
-  explicit CrossedEdges(const SolidGrid& grid) : grid_(grid) {}
+  explicit CrossedEdges(const SolidGrid& grid, const std::optional<GridWall>& wall = std::nullopt)
+      : grid_(grid), wall_(wall) {}
 
   /// Finds them anew; those that were crossed the same way before keep what is known of them. `start`: `at` and `pull` of
   /// others.
@@ -62,8 +72,10 @@ class CrossedEdges {
 
  private:
   void find_active_blocks();
+  void put_into_wall(CrossedEdge& e) const;
 
   const SolidGrid& grid_;
+  std::optional<GridWall> wall_;
   std::vector<std::uint32_t> active_;
   std::vector<std::uint32_t> first_;   ///< one a vertex
   std::vector<std::uint8_t> crossed_;  ///< one a vertex: bit b - 1 stands for the edge of bits b

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "volumes/solids/carve.h"
 #include "volumes/solids/convex_solid.h"
@@ -19,6 +20,8 @@ constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from
 /// Of the tolerance: grid points are at most so far apart, and at least. Where solids are thin they are as far apart as this share
 /// of volume over area, so that what is lost to the safe side stays a small share of the volume.
 constexpr double kCoarsest = 2.0, kFinest = 1.0, kThickness = 0.25;
+constexpr double kNearWall =
+    4e-3;  ///< of the tolerance: grid points so near to the light's plane are outside
 constexpr double kFirstLook = 4.0;   ///< of the tolerance: the grid that tells volume and area
 constexpr double kSimplified = 0.1;  ///< of the spacing: so far may simplification move a point
 constexpr int kProofDepth = 1;       ///< so often are triangles divided where they cannot be proved whole
@@ -42,7 +45,7 @@ class Mesher {
       enclose_casters(grid);
       fill_cavities(grid);
     }
-    CrossedEdges edges(grid);
+    CrossedEdges edges(grid, request_.region == ShadowRegion::kPenumbra ? wall() : std::nullopt);
     edges.update(0.5, 0.0);
     bisect(edges);
     clock_.finish("bisection");
@@ -53,6 +56,10 @@ class Mesher {
     } else {
       const TriangleJudge judge(request_, tree_);
       surface = carve(grid, edges, request_, judge, out_.evaluations, part_of(request_.progress, 0.4, 0.8));
+      if (request_.region == ShadowRegion::kPenumbra && fill_cavities(grid)) {
+        edges.update(0.5, 0.0);  // some are gone, none is new
+        surface = grid_surface(edges, Diagonals::kLarger);
+      }
     }
     clock_.finish("carving");
     take(std::move(surface), grid.box());
@@ -63,6 +70,18 @@ class Mesher {
   }
 
  private:
+  /// The light's plane: the penumbra ends there.
+  std::optional<GridWall> wall() const {
+    if (request_.light.is_distant()) return std::nullopt;
+    const Vec3 normal = light_frame(request_.light).w;
+    return GridWall{normal, glm::dot(normal, request_.light.center)};
+  }
+  /// By little, behind it, or in it.
+  bool is_at_the_wall(const Vec3& p, double little) const {
+    const std::optional<GridWall> plane = wall();
+    return plane && glm::dot(plane->normal, p) - plane->offset <= little;
+  }
+
   bool is_inside(float seen) const {
     if (request_.region == ShadowRegion::kUmbra) return seen == 0.0f;
     if (request_.region == ShadowRegion::kPenumbra) return seen < 1.0f;
@@ -98,7 +117,9 @@ class Mesher {
     }
     std::vector<char> inside;
     judge_points(points, inside);
-    for (std::size_t i = 0; i < vertices.size(); ++i) grid.set_inside(vertices[i], inside[i] != 0);
+    const double little = kNearWall * request_.tolerance;
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+      grid.set_inside(vertices[i], inside[i] != 0 && !is_at_the_wall(points[i], little));
     out_.grid_points = grid.size();
   }
 
@@ -124,7 +145,7 @@ class Mesher {
 
   /// What is lit sees the light, so that it hangs together with what lies outside of the grid. What does not is a fault of the
   /// grid, or a body that is open at a hole finer than it.
-  static void fill_cavities(SolidGrid& grid) {
+  static bool fill_cavities(SolidGrid& grid) {
     std::vector<char> reached(grid.size(), 0);
     std::vector<std::uint32_t> waiting;
     const auto reach = [&](std::uint32_t v) {
@@ -141,12 +162,15 @@ class Mesher {
     while (!waiting.empty()) {
       const std::uint32_t v = waiting.back();
       waiting.pop_back();
-      for (unsigned k = 0; k < 3; ++k)
-        for (const std::uint32_t next : {grid.beyond(v, 1u << k), grid.before(v, 1u << k)})
-          if (next != SolidGrid::kNone) reach(next);
+      for_each_edge_at(grid, v, [&](std::uint32_t, unsigned, std::uint32_t next) { reach(next); });
     }
-    for (std::uint32_t v = 0; v < grid.size(); ++v)
-      if (!reached[v]) grid.set_inside(v, true);
+    bool any = false;
+    for (std::uint32_t v = 0; v < grid.size(); ++v) {
+      if (reached[v] || grid.is_inside(v)) continue;
+      grid.set_inside(v, true);
+      any = true;
+    }
+    return any;
   }
 
   /// The tetrahedron of the grid that holds a point: its diagonal's cube is entered by the largest coordinate first.
@@ -188,13 +212,14 @@ class Mesher {
     std::vector<char> inside;
     for (int round = 0; round < kBisections; ++round) {
       for (std::size_t i = 0; i < all.size(); ++i) {
-        all[i].at = 0.5 * (low[i] + high[i]);
+        if (!all[i].in_wall) all[i].at = 0.5 * (low[i] + high[i]);
         points[i] = edges.position(all[i]);
       }
       judge_points(points, inside);
       for (std::size_t i = 0; i < all.size(); ++i) (inside[i] ? low : high)[i] = all[i].at;
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].in_wall) continue;
       const double at = request_.region == ShadowRegion::kUmbra      ? low[i]
                         : request_.region == ShadowRegion::kPenumbra ? high[i]
                                                                      : 0.5 * (low[i] + high[i]);
@@ -214,7 +239,12 @@ class Mesher {
     IndexedSurface simple = simplify({std::move(surface.positions), std::move(surface.triangles)}, options);
     out_.positions = std::move(simple.positions);
     out_.triangles = std::move(simple.triangles);
-    for (const IndexedTriangle& t : out_.triangles) out_.is_cap.push_back(lies_in_a_side(t, box) ? 1 : 0);
+    const double little = 2.0 * kSimplified * out_.spacing;
+    for (const IndexedTriangle& t : out_.triangles) {
+      const bool in_wall =
+          std::ranges::all_of(t, [&](std::uint32_t v) { return is_at_the_wall(out_.positions[v], little); });
+      out_.is_cap.push_back(in_wall || lies_in_a_side(t, box) ? 1 : 0);
+    }
   }
 
   void prove() {

@@ -21,7 +21,8 @@ struct RandomSolidScene {
       light = DistantLight{normal, 30.0 * unit() * unit()};
     } else {
       const double far = kind < 0.4 ? 0.3 : kind < 0.8 ? 3.0 : std::pow(10.0, 1.0 + 4.0 * unit());
-      light = DiskLight{-far / glm::length(normal) * normal + any(0.3), normal, far * (0.02 + 0.5 * unit() * unit())};
+      light = DiskLight{-far / glm::length(normal) * normal + any(0.3), normal,
+                        far * (0.02 + 0.5 * unit() * unit())};
     }
   }
 

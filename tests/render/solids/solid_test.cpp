@@ -1,8 +1,8 @@
 // Solids of data/scenes: sound surfaces, on the safe side as rays in double tell.
 #include <gtest/gtest.h>
 
-#include "penumbra/volumes/checks/validate.h"
 #include "tests/render/solids/solid_judge.h"
+#include "tests/render/solids/sound_solid.h"
 
 namespace penumbra {
 namespace {
@@ -32,16 +32,6 @@ struct SolidScene {
   std::vector<TriangleMesh> meshes;
 };
 
-void expect_sound(const ShadowMesh& mesh) {
-  ASSERT_FALSE(mesh.triangles.empty());
-  const SurfaceFindings f = check_surface(mesh.positions, mesh.triangles);
-  EXPECT_TRUE(f.closed());
-  EXPECT_TRUE(f.degenerate.empty());
-  EXPECT_TRUE(f.self_intersections.empty());
-  EXPECT_TRUE(f.bounds_a_volume);
-  EXPECT_TRUE(TriangleMesh::build(mesh.positions, mesh.triangles).is_closed());
-}
-
 class Solids : public testing::TestWithParam<const char*> {};
 
 TEST_P(Solids, AreSoundAndOnTheSafeSide) {
@@ -52,6 +42,7 @@ TEST_P(Solids, AreSoundAndOnTheSafeSide) {
     const bool umbra = kind == ShadowLevel::Kind::kUmbra;
     SCOPED_TRACE(umbra ? "umbra" : "penumbra");
     const ShadowSolid solid = s.solid(kind);
+    ASSERT_FALSE(solid.mesh.triangles.empty());
     expect_sound(solid.mesh);
     const CircularLight circular = require_circular(s.light, "test");
     SolidPoints points{

@@ -1,0 +1,34 @@
+// Fields: the fraction O of a light that each point of a grid sees, for fog, light shafts and measurements in other tools.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "penumbra/render/visibility.h"
+
+namespace penumbra {
+
+/// Points origin + (i, j, k) · step; i runs fastest.
+struct LightField {
+  Vec3 origin{0.0}, step{1.0};
+  std::array<int, 3> counts{};
+  /// O: 0 in umbra and behind the light's plane, 1 where all is seen.
+  std::vector<float> seen;
+};
+
+/// `counts` points along each axis, from the box's lowest corner to its highest; at least 2 along each. Blocks of points that are
+/// proved to be lit are not looked at one by one. On the casters' threads. Throws UsageError for a rectangle, an empty box, or
+/// counts out of range (2 to 2,048); Cancelled.
+LightField light_field(const Casters& casters, const LightShape& light, const Bounds& box,
+                       const std::array<int, 3>& counts, const Progress& progress = {});
+
+/// The extensions that write_light_field knows: lower case, with the dot.
+std::vector<std::string_view> light_field_extensions();
+
+/// Writes what the extension names: VTK's image data (.vti) or an array for NumPy (.npy) of shape (z, y, x), float32. The file is
+/// written whole or not at all. Throws UsageError for another extension, SystemError where writing fails.
+void write_light_field(const std::filesystem::path& path, const LightField& field);
+
+}  // namespace penumbra

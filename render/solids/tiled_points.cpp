@@ -1,0 +1,30 @@
+#include "render/solids/tiled_points.h"
+
+namespace penumbra::detail {
+namespace {
+
+constexpr std::size_t kTile = 8;  // receivers a side
+
+}  // namespace
+
+std::vector<float> seen_from(const Casters& casters, const LightShape& light, std::span<const Vec3> points) {
+  if (points.empty()) return {};
+  // A picture eight rows high, a tile beside the other; the last is filled up with the last point.
+  const std::size_t tiles = (points.size() + kTile * kTile - 1) / (kTile * kTile), width = kTile * tiles;
+  const auto place = [&](std::size_t i) {
+    const std::size_t tile = i / (kTile * kTile), at = i % (kTile * kTile);
+    return at / kTile * width + tile * kTile + at % kTile;
+  };
+  std::vector<Vec3> pixels(kTile * width, points.back());
+  for (std::size_t i = 0; i < points.size(); ++i) pixels[place(i)] = points[i];
+  VisibilityOptions options;
+  options.options["silhouette-tolerance"] = 0.0;
+  const Receivers receivers{
+      .points = pixels, .width = static_cast<int>(width), .height = static_cast<int>(kTile)};
+  const std::vector<float> seen = visibility(casters, light, receivers, options).visibility;
+  std::vector<float> out(points.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = seen[place(i)];
+  return out;
+}
+
+}  // namespace penumbra::detail

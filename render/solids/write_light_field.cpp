@@ -1,0 +1,70 @@
+#include <bit>
+#include <cstdint>
+#include <ostream>
+#include <sstream>
+
+#include "mesh/io/formats.h"
+#include "mesh/io/write_file.h"
+#include "penumbra/mesh/error.h"
+#include "penumbra/render/solids/light_field.h"
+
+namespace penumbra {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "fields are written as they lie in memory");
+
+void write_values(std::ostream& out, const LightField& field) {
+  out.write(reinterpret_cast<const char*>(field.seen.data()),
+            static_cast<std::streamsize>(field.seen.size() * sizeof(float)));
+}
+
+/// NumPy's format 1.0: the header ends at a multiple of 64 bytes.
+void write_npy(std::ostream& out, const LightField& field) {
+  std::ostringstream text;
+  text << "{'descr': '<f4', 'fortran_order': False, 'shape': (" << field.counts[2] << ", " << field.counts[1]
+       << ", " << field.counts[0] << "), }";
+  std::string header = text.str();
+  constexpr std::size_t kBefore = 10;
+  while ((kBefore + header.size() + 1) % 64 != 0) header += ' ';
+  header += '\n';
+  out.write("\x93NUMPY\x01\x00", 8);
+  const auto length = static_cast<std::uint16_t>(header.size());
+  out.write(reinterpret_cast<const char*>(&length), 2);
+  out << header;
+  write_values(out, field);
+}
+
+/// VTK's XML image data, values appended as they are.
+void write_vti(std::ostream& out, const LightField& field) {
+  std::ostringstream extent;
+  for (int k = 0; k < 3; ++k)
+    extent << (k > 0 ? " " : "") << "0 " << field.counts[static_cast<std::size_t>(k)] - 1;
+  out.precision(17);
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+         "header_type=\"UInt64\">\n<ImageData WholeExtent=\""
+      << extent.str() << "\" Origin=\"" << field.origin.x << " " << field.origin.y << " " << field.origin.z
+      << "\" Spacing=\"" << field.step.x << " " << field.step.y << " " << field.step.z
+      << "\">\n<Piece Extent=\"" << extent.str()
+      << "\">\n<PointData Scalars=\"seen\">\n<DataArray type=\"Float32\" Name=\"seen\" format=\"appended\" "
+         "offset=\"0\"/>\n</PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_";
+  const std::uint64_t bytes = field.seen.size() * sizeof(float);
+  out.write(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+  write_values(out, field);
+  out << "\n</AppendedData>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+std::vector<std::string_view> light_field_extensions() {
+  return {".vti", ".npy"};
+}
+
+void write_light_field(const std::filesystem::path& path, const LightField& field) {
+  const std::string extension = detail::lower_extension(path);
+  if (extension != ".vti" && extension != ".npy")
+    throw UsageError(path.string() + ": fields are written as .vti or .npy; choose one of these extensions");
+  write_file(path,
+             [&](std::ostream& out) { extension == ".npy" ? write_npy(out, field) : write_vti(out, field); });
+}
+
+}  // namespace penumbra

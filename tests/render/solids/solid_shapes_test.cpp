@@ -1,0 +1,135 @@
+// Solids whose shape is known: levels in closed form, tips, tunnels, casters that join, and casters in the light's plane.
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "penumbra/mesh/error.h"
+#include "penumbra/mesh/shapes.h"
+#include "penumbra/render/solids/extrude_solid.h"
+#include "tests/render/solids/random_scenes.h"
+#include "tests/render/solids/solid_judge.h"
+#include "tests/render/solids/sound_solid.h"
+
+namespace penumbra {
+namespace {
+
+using Kind = ShadowLevel::Kind;
+
+ShadowSolid solid_of(std::vector<TriangleMesh> casters, const LightShape& light, const ShadowLevel& level,
+                     const SolidOptions& options) {
+  return extrude_solid(Casters(casters), light, level, options);
+}
+
+/// The plane through the disk's center and the edge sees half of the disk.
+TEST(SolidShapes, HalfOfTheLightBesideAHalfPlane) {
+  const std::vector<Vec3> corners{{-3, 0, -3}, {0, 0, -3}, {0, 0, 3}, {-3, 0, 3}};
+  const TriangleMesh plate = TriangleMesh::build(corners, std::vector<IndexedTriangle>{{0, 2, 1}, {0, 3, 2}});
+  const DiskLight light{{0.3, 4.0, 0.0}, {0.0, -1.0, 0.0}, 0.5};
+  const double h = 0.05;
+  const ShadowSolid solid =
+      solid_of({plate}, light, {Kind::kFraction, 0.5},
+               {.tolerance = h, .bound = {Vec3(-3.5, -1.5, -3.5), Vec3(1.5, 0.5, 3.5)}});
+  expect_sound(solid.mesh);
+  const Vec3 across = glm::normalize(Vec3(4.0, -0.3, 0.0));  // of the plane, which holds the z axis
+  double nearest = 1.0, farthest = 0.0;
+  for (const Vec3& p : solid.mesh.positions) {
+    if (std::abs(p.z) > 1.5 || p.x < -1.0) continue;  // the plate's other edges hide nothing more there
+    if (p.y == -1.5 && glm::dot(across, p) < -2.0 * h) continue;  // inside of the cap
+    nearest = std::min(nearest, std::abs(glm::dot(across, p)));
+    if (p.y > -1.5 && p.y < -0.1) farthest = std::max(farthest, std::abs(glm::dot(across, p)));
+  }
+  EXPECT_LT(nearest, h);
+  EXPECT_LT(farthest, h);
+}
+
+/// Below the sphere, on the axis, the sphere hides a disk of radius ρ = (D + d)R/√(d² - R²) around the light's center. Returns the
+/// depth d at which ρ is a given radius.
+double depth_where(double rho, double sphere, double distance) {
+  double low = sphere, high = 100.0;
+  for (int i = 0; i < 200; ++i) {
+    const double d = 0.5 * (low + high);
+    ((distance + d) * sphere / std::sqrt(d * d - sphere * sphere) > rho ? low : high) = d;
+  }
+  return low;
+}
+
+TEST(SolidShapes, LevelsAndTipBelowASphere) {
+  const double sphere = 0.5, distance = 3.0, radius = 2.0, h = 0.03;
+  const TriangleMesh ball = make_icosphere(Vec3(0.0), sphere, 5);
+  const DiskLight light{{0.0, distance, 0.0}, {0.0, -1.0, 0.0}, radius};
+  const Bounds bound{Vec3(-3.0), Vec3(3.0, 1.0, 3.0)};
+  const std::pair<ShadowLevel, double> levels[] = {
+      {{Kind::kUmbra}, depth_where(radius, sphere, distance)},
+      {{Kind::kFraction, 0.5}, depth_where(radius * std::sqrt(0.5), sphere, distance)}};
+  for (const auto& [level, depth] : levels) {
+    const ShadowSolid solid = solid_of({ball}, light, level, {.tolerance = h, .bound = bound});
+    expect_sound(solid.mesh);
+    EXPECT_EQ(euler_characteristic(solid.mesh), 2);
+    EXPECT_NEAR(bounds_of(solid.mesh.positions).low.y, -depth, h);
+  }
+}
+
+TEST(SolidShapes, ATorusHasATunnelOfLight) {
+  const TriangleMesh torus = make_torus(Vec3(0.0), 1.0, 0.3, 48, 24);
+  const DiskLight light{{0.0, 5.0, 0.0}, {0.0, -1.0, 0.0}, 0.2};
+  const SolidOptions options{.tolerance = 0.05, .bound = {Vec3(-2.0), Vec3(2.0)}};
+  for (const Kind kind : {Kind::kUmbra, Kind::kPenumbra}) {
+    const ShadowSolid solid = solid_of({torus}, light, {kind}, options);
+    expect_sound(solid.mesh);
+    EXPECT_EQ(euler_characteristic(solid.mesh), 0);
+  }
+}
+
+TEST(SolidShapes, UmbrasOfTwoCastersJoin) {
+  const TriangleMesh left = make_box(Vec3(-0.5, 0.0, 0.0), Vec3(0.5, 0.1, 0.5)),
+                     right = make_box(Vec3(0.4, 0.5, 0.0), Vec3(0.5, 0.1, 0.5));
+  const DiskLight light{{0.0, 4.0, 0.0}, {0.0, -1.0, 0.0}, 0.3};
+  const ShadowSolid solid =
+      solid_of({left, right}, light, {Kind::kUmbra}, {.tolerance = 0.04, .bound = {Vec3(-2.0), Vec3(2.0)}});
+  expect_sound(solid.mesh);
+  EXPECT_EQ(euler_characteristic(solid.mesh), 2);
+  EXPECT_TRUE(SolidInside(solid.mesh).contains(Vec3(-0.01, -0.6, 0.0)));
+}
+
+TEST(SolidShapes, ACasterThroughTheLightsPlaneCastsInFrontOfIt) {
+  const TriangleMesh post = make_box(Vec3(1.0, 1.0, 0.0), Vec3(0.2, 0.8, 0.2));
+  const DiskLight light{{0.0, 1.2, 0.0}, {0.0, -1.0, 0.0}, 0.3};
+  const SolidOptions options{.tolerance = 0.04, .bound = {Vec3(-3.0), Vec3(3.0)}};
+  for (const Kind kind : {Kind::kUmbra, Kind::kPenumbra}) {
+    const ShadowSolid solid = solid_of({post}, light, {kind}, options);
+    ASSERT_FALSE(solid.mesh.triangles.empty());
+    expect_sound(solid.mesh);
+    EXPECT_LE(bounds_of(solid.mesh.positions).high.y, 1.2 + 0.1 * 0.04);
+    EXPECT_TRUE(SolidInside(solid.mesh).contains(Vec3(1.5, 0.9, 0.0)));
+  }
+}
+
+TEST(SolidShapes, RandomScenesGiveSoundSolidsOrAreRefusedByName) {
+  std::size_t made = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const RandomSolidScene scene(seed);
+    for (const Kind kind : {Kind::kUmbra, Kind::kPenumbra, Kind::kFraction}) {
+      SCOPED_TRACE("seed " + std::to_string(seed));
+      try {
+        const ShadowSolid solid = solid_of(scene.casters, scene.light, {kind}, {.tolerance = 0.08});
+        if (solid.mesh.triangles.empty()) continue;
+        ++made;
+        expect_sound(solid.mesh);
+      } catch (const UsageError& e) {
+        EXPECT_NE(std::string(e.what()), "");
+      }
+    }
+  }
+  EXPECT_GT(made, 12u);
+}
+
+TEST(SolidShapes, OptionsOutsideTheirDomainAreRefused) {
+  const TriangleMesh ball = make_icosphere(Vec3(0.0), 0.5, 1);
+  const DiskLight light{{0.0, 3.0, 0.0}, {0.0, -1.0, 0.0}, 0.3};
+  EXPECT_THROW(solid_of({ball}, light, {Kind::kUmbra}, {.tolerance = -1.0}), UsageError);
+  EXPECT_THROW(solid_of({ball}, light, {Kind::kFraction, 1.0}, {}), UsageError);
+  EXPECT_THROW(solid_of({ball}, light, {Kind::kUmbra}, {.bound = {Vec3(-0.1), Vec3(0.1)}}), UsageError);
+  EXPECT_THROW(solid_of({ball}, light, {Kind::kFraction, 0.5}, {.tolerance = 1e-5}), UsageError);
+}
+
+}  // namespace
+}  // namespace penumbra
