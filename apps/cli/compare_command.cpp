@@ -178,7 +178,6 @@ void write_pictures(const Arguments& arguments, std::span<const JudgedImage> ima
 }
 
 void run(const Arguments& arguments) {
-  check(arguments);
   const ThreadLimit limit(arguments.common.threads);
   std::optional<Image> reference;
   std::optional<Scene> scene;
@@ -272,6 +271,7 @@ void add_compare_command(CLI::App& app) {
   add_common_options(command, arguments->common);
   command.footer(kFooter);
   command.callback([arguments, samples, &command] {
+    check(*arguments);
     say_what_is_ignored(*arguments, command);
     if (arguments->judge == "double") {
       arguments->trace.oracle_pixels = arguments->judge_pixels;

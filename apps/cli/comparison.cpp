@@ -103,8 +103,12 @@ void set_figures(Comparison& comparison, const std::vector<float>& method, const
   comparison.first = references.first;
   comparison.second = references.second;
   comparison.penumbra = true_penumbra(references.first, references.second, comparison.judged);
-  comparison.all = error_figures(method, references.first, references.second, comparison.judged);
-  comparison.in_penumbra = error_figures(method, references.first, references.second, comparison.penumbra);
+  ProgressLine progress("error figures");
+  const auto figures = [&](const std::vector<std::uint32_t>& pixels) {
+    return error_figures(method, references.first, references.second, pixels, progress.callback());
+  };
+  comparison.all = figures(comparison.judged);
+  comparison.in_penumbra = figures(comparison.penumbra);
 }
 
 // The largest errors are those in which the reference's noise had a share: only p99 and the maximum are
@@ -116,7 +120,9 @@ void resample_worst(Comparison& comparison, const std::vector<float>& method, Re
   for (std::size_t k = 0; k < pixels.size(); ++k)
     references.first[pixels[k]] = references.second[pixels[k]] = comparison.reference[pixels[k]] = values[k];
   const auto correct = [&](ErrorFigures& figures, const std::vector<std::uint32_t>& selected) {
-    const ErrorFigures again = error_figures(method, references.first, references.second, selected);
+    ProgressLine progress("error figures");
+    const ErrorFigures again =
+        error_figures(method, references.first, references.second, selected, progress.callback());
     figures.p99_absolute = again.p99_absolute;
     figures.max_absolute = again.max_absolute;
   };

@@ -79,6 +79,16 @@ void say_what_is_ignored(const Arguments& arguments) {
     say_ignored("--warm-up", "times are in --stats and --verbose");
 }
 
+void write_image(const std::filesystem::path& path, const Image& image, double exposure) {
+  constexpr std::int64_t kMany = 2'000'000;  // pixels that take a second or more
+  ProgressLine progress("writing " + path.string());
+  if (std::int64_t{image.width} * image.height > kMany) progress.begin();
+  if (extension_of(path) == ".exr")
+    write_exr(path, image);
+  else
+    write_png(path, image, exposure);
+}
+
 void say_stages(const RenderResult& result) {
   for (const StageTime& stage : result.stages) {
     char line[128];
@@ -102,14 +112,13 @@ void run(const Arguments& arguments) {
     options.progress = progress.callback();
     result = render(scene, options, arguments.common.threads, arguments.warm_up);
   }
+  if (std::ranges::all_of(result.image.at("A"), [](float a) { return a == 0.0f; }))
+    complain("warning: the camera sees no surface; the image is empty");
   for (const std::string& warning : result.warnings) complain("warning: " + warning);
   if (arguments.common.verbose) say_stages(result);
   result.image.metadata = metadata_of(scene, arguments.scene.path.string(), result);
   for (const auto& output : arguments.images) {
-    if (extension_of(output) == ".exr")
-      write_exr(output, result.image);
-    else
-      write_png(output, result.image, arguments.exposure);
+    write_image(output, result.image, arguments.exposure);
     say_written(arguments.common.verbose, output);
   }
   if (!arguments.stats.empty()) {

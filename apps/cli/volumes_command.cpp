@@ -11,6 +11,7 @@
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
+#include "apps/common/parse_errors.h"
 #include "apps/common/scene_volumes.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/volumes/checks/checks.h"
@@ -89,8 +90,16 @@ void check(const Arguments& arguments) {
     if (!path.empty() && option != "--report")
       require_extension(option, path, shadow_mesh_extensions(), false);
   require_good(outputs, {arguments.scene.path});
+}
+
+/// One line for each option that was given and has no effect.
+void say_what_is_ignored(const Arguments& arguments, const CLI::App& command) {
   if (arguments.merge && arguments.report.empty() && !arguments.solid())
     say_ignored("--merge", "files hold all casters anyway, and there is no --report");
+  if (command.count("--level") > 0 && arguments.level_file.empty())
+    say_ignored("--level", "there is no --level-file");
+  if (command.count("--cone-segments") > 0 && arguments.solid())
+    say_ignored("--cone-segments", "solids have no cones; --tolerance decides how round they are");
 }
 
 void add_object(const Arguments& arguments, const SceneObject& object, std::size_t number,
@@ -214,8 +223,6 @@ SolidReport make_and_write(const Arguments& arguments, const Scene& scene, const
 }
 
 void run(const Arguments& arguments) {
-  check(arguments);
-  if (arguments.solid()) check(solid_arguments(arguments));
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
   const std::vector<std::size_t> lights = chosen_lights(arguments, scene);
@@ -276,7 +283,9 @@ void add_volumes_command(CLI::App& app) {
           "--form", arguments->form,
           "solid: one closed surface a caster, without self-intersections, for other tools; cells: a sum of "
           "convex pieces, made in milliseconds")
-      ->check(CLI::IsMember({"cells", "solid"}))
+      ->check([](const std::string& word) {
+        return require_one_of({"cells", "solid"}, word);
+      })
       ->capture_default_str();
   command
       .add_option("--tolerance", arguments->tolerance,
@@ -302,7 +311,12 @@ void add_volumes_command(CLI::App& app) {
       ->type_name("FILE");
   add_common_options(command, arguments->common);
   command.footer(kFooter);
-  command.callback([arguments] { run(*arguments); });
+  command.callback([arguments, &command] {
+    check(*arguments);
+    if (arguments->solid()) check(solid_arguments(*arguments));
+    say_what_is_ignored(*arguments, command);
+    run(*arguments);
+  });
 }
 
 }  // namespace penumbra::apps

@@ -44,6 +44,13 @@ ProgressLine::~ProgressLine() {
   if (shown_) std::fputs("\r\033[K", stderr);
 }
 
+void ProgressLine::begin() {
+  if (!watched_) return;
+  shown_ = true;
+  std::fprintf(stderr, "\r%s\033[K", label_.c_str());
+  std::fflush(stderr);
+}
+
 Progress ProgressLine::callback() {
   if (!watched_) return {};
   return [this](double fraction) {

@@ -26,6 +26,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
+  /// Shows the label alone, at once: for what does not tell how far it is.
+  void begin();
   /// For long calls; must not be used after this object is gone. Empty where nobody watches.
   Progress callback();
 

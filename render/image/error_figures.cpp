@@ -45,13 +45,14 @@ double quantile(std::vector<double>& values, double fraction) {
 // 95% interval of the RMSE: means over pixels drawn with replacement. Errors of neighboring pixels are not
 // independent, so this states how well the *pixels at hand* fix the figure, not how other views would
 // scatter.
-void add_interval(ErrorFigures& figures, const std::vector<double>& products) {
+void add_interval(ErrorFigures& figures, const std::vector<double>& products, const Progress& progress) {
   SplitMix64 random(kBootstrapSeed);
   std::vector<double> roots;
   for (int k = 0; k < kResamples; ++k) {
     double sum = 0.0;
     for (std::size_t i = 0; i < products.size(); ++i) sum += products[random.below(products.size())];
     roots.push_back(root(sum / static_cast<double>(products.size())));
+    report(progress, (k + 1.0) / kResamples);
   }
   figures.rmse_low = quantile(roots, 0.025);
   figures.rmse_high = quantile(roots, 0.975);
@@ -60,7 +61,8 @@ void add_interval(ErrorFigures& figures, const std::vector<double>& products) {
 }  // namespace
 
 ErrorFigures error_figures(std::span<const float> method, std::span<const float> reference1,
-                           std::span<const float> reference2, std::span<const std::uint32_t> selected) {
+                           std::span<const float> reference2, std::span<const std::uint32_t> selected,
+                           const Progress& progress) {
   assert(method.size() == reference1.size() && method.size() == reference2.size());
   ErrorFigures figures;
   figures.pixels = selected.size();
@@ -88,7 +90,7 @@ ErrorFigures error_figures(std::span<const float> method, std::span<const float>
   figures.max_absolute = *std::max_element(absolute.begin(), absolute.end());
   figures.p99_absolute = quantile(absolute, 0.99);
   figures.median_absolute = quantile(absolute, 0.5);
-  add_interval(figures, products);
+  add_interval(figures, products, progress);
   return figures;
 }
 

@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "penumbra/mesh/progress.h"
+
 namespace penumbra {
 
 struct ErrorFigures {
@@ -23,9 +25,10 @@ struct ErrorFigures {
   friend bool operator==(const ErrorFigures&, const ErrorFigures&) = default;
 };
 
-/// `selected` lists the pixels to judge. Deterministic (the bootstrap's seed is fixed). Cost O(200 n).
+/// `selected` lists the pixels to judge. Deterministic (the bootstrap's seed is fixed). Cost O(200 n). Throws Cancelled.
 ErrorFigures error_figures(std::span<const float> method, std::span<const float> reference1,
-                           std::span<const float> reference2, std::span<const std::uint32_t> selected);
+                           std::span<const float> reference2, std::span<const std::uint32_t> selected,
+                           const Progress& progress = {});
 /// Pixels of `candidates` in true penumbra.
 std::vector<std::uint32_t> true_penumbra(std::span<const float> reference1, std::span<const float> reference2,
                                          std::span<const std::uint32_t> candidates);

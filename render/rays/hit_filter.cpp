@@ -57,7 +57,8 @@ std::optional<std::uint32_t> face_of(const Hit& hit, const RayGeometry& geometry
   if (!between && hit.is_beyond(query.rays, geometry)) return std::nullopt;
   const SegmentEnds ends = ends_of(query.packet, hit.ray, query.group.frame);
   const FaceCorners corners = geometry.corners(face);
-  if ((between || separates(corners, ends.x, ends.q)) && line_meets(corners, ends.x, ends.q)) return face;
+  if (!between && !separates(corners, ends.x, ends.q)) return std::nullopt;
+  if (line_meets(corners, ends.x, ends.q)) return face;
   if (!is_flat(corners, ends.q - ends.x, kGrazing)) return std::nullopt;
   const bool own = query.packet.object[hit.ray] == static_cast<std::int32_t>(geometry.object);
   return hiding_face_along(geometry.scaled(), face, own ? query.packet.face[hit.ray] : -1, ends.x, ends.q,

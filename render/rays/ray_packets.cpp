@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <glm/geometric.hpp>
 
 #include "render/rays/hit_filter.h"
+#include "render/support/vector_clones.h"
 
 namespace penumbra::detail {
 namespace {
@@ -39,24 +41,67 @@ void find_occluded_by(const RayGroup& group, RayPacket& packet, Coherence cohere
     packet.occluded[k] |= rays.valid[k] & (rays.ray.tfar[k] < 0.0f ? -1 : 0);
 }
 
-/// Rays that leave their own face so flat that float may pass over all that stands on it.
-void find_occluded_beside_own(const RayScene::Impl& rays, RayPacket& packet) {
-  std::int32_t object = -1;
-  std::uint32_t face = 0;
-  RayScene::Impl::OfObject of;
-  FaceCorners corners{};
+/// All rays start on one face.
+PENUMBRA_VECTOR_CLONES
+bool are_of_one_face(const RayPacket& packet) {
+  std::int32_t other = 0;
+  for (std::size_t k = 0; k < kRays; ++k)
+    other |=
+        (packet.object[k] ^ packet.object[0]) | static_cast<std::int32_t>(packet.face[k] ^ packet.face[0]);
+  return other == 0;
+}
+
+/// Whether a ray that still counts leaves a plane flat, by the square of the plane's normal times that of the sine.
+PENUMBRA_VECTOR_CLONES
+bool is_any_flat(const RayPacket& packet, const Vec3& normal, double steepest) {
+  std::int64_t any = 0;
   for (std::size_t k = 0; k < kRays; ++k) {
-    if ((packet.wanted[k] & ~packet.occluded[k]) == 0 || packet.object[k] < 0) continue;
-    if (packet.object[k] != object || packet.face[k] != face) {
-      object = packet.object[k], face = packet.face[k];
-      of = rays.of_face(object, face);
-      if (of.geometry) corners = of.geometry->corners(face);
-    }
-    if (!of.geometry || !is_flat(corners, packet.way(k), kLeavesFlat)) continue;
-    const SegmentEnds ends = ends_of(packet, k, of.group->frame);
-    if (hiding_face_along(of.geometry->scaled(), face, face, ends.x, ends.q,
-                          {.reach = kBeside, .forward_only = true}))
-      packet.occluded[k] = -1;
+    const double x = packet.way_x[k], y = packet.way_y[k], z = packet.way_z[k];
+    const double across = normal.x * x + normal.y * y + normal.z * z;
+    const bool flat = across * across < steepest * (x * x + y * y + z * z);
+    any |= flat ? packet.wanted[k] & ~packet.occluded[k] : 0;
+  }
+  return any != 0;
+}
+
+/// The plane of a ray's own face, as RayPacket keeps it.
+RayPacket::OwnFace own_face(const RayScene::Impl& rays, const RayPacket& packet, std::size_t k) {
+  RayPacket::OwnFace own{&rays, packet.object[k], packet.face[k], Vec3(0.0), 0.0};
+  const RayGeometry* geometry = rays.of_face(own.object, own.face).geometry;
+  if (!geometry) return own;
+  const FaceCorners f = geometry->corners(own.face);
+  own.normal = glm::cross(f.b - f.a, f.c - f.a);
+  own.steepest = kLeavesFlat * kLeavesFlat * glm::dot(own.normal, own.normal);
+  return own;
+}
+
+/// A ray that leaves its own face so flat that float may pass over all that stands on it.
+void look_beside_own(const RayScene::Impl& rays, RayPacket& packet, std::size_t k) {
+  const auto of = rays.of_face(packet.object[k], packet.face[k]);
+  if (!of.geometry) return;
+  const SegmentEnds ends = ends_of(packet, k, of.group->frame);
+  if (hiding_face_along(of.geometry->scaled(), packet.face[k], packet.face[k], ends.x, ends.q,
+                        {.reach = kBeside, .forward_only = true}))
+    packet.occluded[k] = -1;
+}
+
+void find_occluded_beside_own(const RayScene::Impl& rays, RayPacket& packet) {
+  const bool one = are_of_one_face(packet);
+  RayPacket::OwnFace& own = packet.own;
+  const auto look_up = [&](std::size_t k) {
+    if (own.scene != &rays || own.object != packet.object[k] || own.face != packet.face[k])
+      own = own_face(rays, packet, k);
+  };
+  if (one) {
+    look_up(0);
+    if (!is_any_flat(packet, own.normal, own.steepest)) return;
+  }
+  for (std::size_t k = 0; k < kRays; ++k) {
+    if (packet.object[k] < 0 || (packet.wanted[k] & ~packet.occluded[k]) == 0) continue;
+    look_up(k);
+    const Vec3 way = packet.way(k);
+    const double across = glm::dot(own.normal, way);
+    if (across * across < own.steepest * glm::dot(way, way)) look_beside_own(rays, packet, k);
   }
 }
 

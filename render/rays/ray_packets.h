@@ -58,6 +58,16 @@ struct RayPacket {
   /// Written by find_occluded: -1 where the ray was wanted and a face lies on its way, else 0.
   std::int32_t occluded[kRays]{};
 
+  /// Kept by find_occluded from call to call: what it knows of the face on which rays start.
+  struct OwnFace {
+    const void* scene = nullptr;
+    std::int32_t object = -1;
+    std::uint32_t face = 0;
+    Vec3 normal{0.0};
+    double steepest = 0.0;
+  };
+  OwnFace own;
+
   RayPacket() {
     for (std::int32_t& each : object) each = -1;
   }

@@ -1,5 +1,6 @@
 #include "apps/cli/solids/solid_volumes.h"
 
+#include <cmath>
 #include <cstdlib>
 
 #include "apps/common/messages.h"
@@ -35,7 +36,7 @@ double tolerance_of(const std::string& text, double diagonal) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const bool percent = *end == '%';
-  if (end == text.c_str() || end[percent ? 1 : 0] != '\0' || !(value > 0.0))
+  if (end == text.c_str() || end[percent ? 1 : 0] != '\0' || !(value > 0.0) || std::isinf(value))
     throw UsageError("--tolerance " + text +
                      " is no length above 0; give scene units such as 0.01, or a share of the "
                      "caster's size such as 1%");
@@ -103,16 +104,17 @@ class Writer {
       out_.json["objects"].push_back(report);
     }
     for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (!kinds[k].file.empty()) write_file(file_of_light(kinds[k].file, name), merge(meshes[k]));
+      if (!kinds[k].file.empty()) write(file_of_light(kinds[k].file, name), merge(meshes[k]));
     return std::move(out_);
   }
 
  private:
-  void write_file(const std::filesystem::path& file, const ShadowMesh& mesh) const {
-    write_shadow_mesh(file, mesh);
+  void write(const std::filesystem::path& file, const ShadowMesh& solid) const {
+    write_shadow_mesh(file, solid);
     say_written(arguments_.verbose, file);
-    if (mesh.triangles.empty())
-      complain("warning: " + file.string() + " is empty: no point in the bound is in it");
+    if (solid.triangles.empty())
+      complain("warning: " + file.string() +
+               " is empty: at this --tolerance no caster hides as much of the light as it asks for");
   }
 
   ShadowMesh make(const Casters& casters, const Part& part, const Wanted& kind, const Progress& progress,

@@ -11,8 +11,9 @@
 // the sides. x sees Q's parts across n in full. It sees parts along the surface at a slant: the mean planes of
 // the sides have values of opposite signs at x, so for p near the edge and ν = |l + r|
 //   |n·(x - p)| ≤ (|l - r| |x - p| + 2 off) / ν,  off: the distances of p from both planes,
-// and off is the thickness of the sides or less. Sums over Q are of magnitudes, and what a chain strays counts
-// at its largest: nothing cancels, and a tooth in a long straight border does not become smaller with it.
+// and off is the thickness of the sides or less: `swept` times the distance, plus `swept_at_any`. Sums over Q are
+// of magnitudes, and what a chain strays counts at its largest: nothing cancels, and a tooth in a long straight
+// border does not become smaller with it.
 #pragma once
 
 #include <cstdint>

@@ -217,6 +217,7 @@ const BadUsage kBadUsages[] = {
      {"render", "SCENE", "--output", "o.png", "--combine", "prodcut"},
      2,
      "(did you mean product?)"},
+    {"FormNearAnother", {"volumes", "SCENE", "--check", "--form", "sold"}, 2, "(did you mean solid?)"},
     {"JudgeNearAnother", {"compare", "o.exr", "SCENE", "--judge", "doubel"}, 2, "(did you mean double?)"},
     {"LightNearAnother", {"volumes", "NAMED", "--check", "--light", "wimdow"}, 2, "(did you mean window?)"},
     {"SeedOverflows",

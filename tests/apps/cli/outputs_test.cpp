@@ -136,13 +136,17 @@ TEST_F(OutputsTest, WhatHasNoEffectOrIsEmptyIsSaidInOneLine) {
     const char* said;
   };
   const std::string nothing = write("nothing.json", scene_text("t.off", R"(,"casts":false)"));
+  const std::string away = write("away.json", R"({"version":1,"lights":[{"shape":"disk","center":[0,4,0],
+    "normal":[0,-1,0],"radius":1}],"camera":{"eye":[3,3,4],"target":[6,6,8]},"objects":[{"mesh":"t.off"}]})");
   ASSERT_EQ(run(drawn({"--output", path("a.exr")})).code, 0);
   for (const auto& [words, said] :
-       {Case{drawn({"--output", path("a.exr"), "--samples", "64"}),
+       {Case{{"render", away, "--size", "16x12", "--output", path("a.png")}, "the camera sees no surface"},
+        Case{drawn({"--output", path("a.exr"), "--samples", "64"}),
              "--samples has no effect: method silhouette"},
         Case{drawn({"--output", path("a.exr"), "--exposure", "1"}), "--exposure has no effect"},
         Case{drawn({"--output", path("a.exr"), "--warm-up", "1"}), "--warm-up has no effect"},
         Case{{"volumes", scene_, "--penumbra", path("p.ply"), "--merge"}, "--merge has no effect"},
+        Case{{"volumes", scene_, "--penumbra", path("p.ply"), "--level", "0.3"}, "--level has no effect"},
         Case{{"volumes", nothing, "--penumbra", path("p.ply")}, "no object of the scene casts"},
         Case{{"compare", path("a.exr"), path("a.exr"), "--samples", "64"}, "--samples has no effect"},
         Case{{"compare", path("a.exr"), path("a.exr"), "--judge-pixels", "64"},
