@@ -74,6 +74,9 @@ TEST(Simplify, KeepsSurfacesSoundAndMovesThemToOneSide) {
                    {.side = side, .tolerance = 0.04, .box = random.grid.box(), .spacing = 0.08});
       EXPECT_LT(simple.triangles.size(), surface.triangles.size());
       expect_sound(simple.positions, simple.triangles);
+      for (const Vec3& p : simple.positions)
+        for (int k = 0; k < 3; ++k)
+          EXPECT_TRUE(random.grid.box().low[k] <= p[k] && p[k] <= random.grid.box().high[k]);
       const double after = volume_of(simple.positions, simple.triangles);
       if (side == SimplifyOptions::Side::kInward) {
         EXPECT_LT(after, before);

@@ -176,6 +176,8 @@ class Simplifier {
     Plan plan{*x + origin_, 0.0, 0.0};
     for (int k = 0; k < 3; ++k)
       if (placement.fixed[k]) plan.point[k] = sides >> k & 1 ? options_.box.low[k] : options_.box.high[k];
+    for (int k = 0; k < 3; ++k)
+      if (plan.point[k] < options_.box.low[k] || plan.point[k] > options_.box.high[k]) return std::nullopt;
     double most = 0.0;
     for (std::size_t i = 0; i < limits_.size(); ++i) {
       const double by = std::abs(glm::dot(limits_[i].normal, *x) - limits_[i].offset);

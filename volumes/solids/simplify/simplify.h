@@ -14,7 +14,7 @@ struct SimplifyOptions {
   Side side = Side::kOutward;
   /// No point moves farther than this, scene units.
   double tolerance = 0.0;
-  /// Vertices on its sides stay on them.
+  /// Holds the surface. Vertices on its sides stay on them, and none leaves it.
   Bounds box{};
   /// A length that is small against all detail, such as the distance of grid points.
   double spacing = 0.0;
