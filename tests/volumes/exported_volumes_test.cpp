@@ -47,7 +47,8 @@ double umbra_volume(const TriangleMesh& mesh, std::size_t cells) {
   const ShadowMesh umbra = build_shadow_volumes(mesh, light, options).umbra;
   EXPECT_EQ(umbra.cells, cells);
   double volume = 0.0;
-  for (const Component& part : TriangleMesh::build(umbra.positions, umbra.triangles).components()) {
+  const TriangleMesh built = TriangleMesh::build(umbra.positions, umbra.triangles);
+  for (const Component& part : built.components()) {
     EXPECT_TRUE(part.closed);
     volume += part.signed_volume;
   }
