@@ -25,9 +25,9 @@ ExtrudeOptions extrude_options_for(const Scene& scene, const CircularLight& ligh
 }
 
 Bounds solid_bound_for(const Scene& scene) {
-  if (scene.objects.size() == 1) return {};
   Bounds bounds = scene.bounds();
-  const Vec3 by(kMargin * scene.caster_bounds().radius());
+  const bool alone = scene.objects.size() == 1;
+  const Vec3 by(alone ? 2.0 * bounds.radius() : kMargin * scene.caster_bounds().radius());
   bounds.low -= by;
   bounds.high += by;
   return bounds;

@@ -10,8 +10,8 @@ namespace penumbra::apps {
 /// volume reaches beyond it.
 ExtrudeOptions extrude_options_for(const Scene& scene, const CircularLight& light);
 
-/// The box in which solids end: that of all objects and a little more. Where there are none but one caster it is empty, and
-/// solids end around the caster.
+/// The box in which solids end and fields lie: that of all objects and a little more; that of a lone object, grown by its
+/// diagonal on all sides.
 Bounds solid_bound_for(const Scene& scene);
 
 }  // namespace penumbra::apps

@@ -62,14 +62,25 @@ void SquareTriangulation::split_triangle(std::uint32_t t, std::uint32_t p) {
   doubtful_ = {{t, 0}, {t1, 0}, {t2, 0}};
 }
 
-void SquareTriangulation::split_side(Corner opposite, std::uint32_t p) {
+SquareTriangulation::Quadrangle SquareTriangulation::quadrangle(Corner opposite) const {
   const std::uint32_t t = opposite.t, k = opposite.k, u = triangles_[t].n[k];
   const std::uint32_t j = back_from(u, t);
-  const auto [v, n] = triangles_[t];
-  const auto [w, m] = triangles_[u];
-  const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], d = w[j];
-  const std::uint32_t n_ca = n[(k + 1) % 3], n_ab = n[(k + 2) % 3];
-  const std::uint32_t m_bd = m[(j + 1) % 3], m_dc = m[(j + 2) % 3];
+  const auto& [v, n] = triangles_[t];
+  const auto& [w, m] = triangles_[u];
+  return {t,
+          u,
+          v[k],
+          v[(k + 1) % 3],
+          v[(k + 2) % 3],
+          w[j],
+          n[(k + 1) % 3],
+          n[(k + 2) % 3],
+          m[(j + 1) % 3],
+          m[(j + 2) % 3]};
+}
+
+void SquareTriangulation::split_side(Corner opposite, std::uint32_t p) {
+  const auto [t, u, a, b, c, d, n_ca, n_ab, m_bd, m_dc] = quadrangle(opposite);
   const auto t1 = static_cast<std::uint32_t>(triangles_.size()), u1 = t1 + 1;
   triangles_.resize(triangles_.size() + 2);
   set(t, {p, a, b}, {n_ab, u1, t1});
@@ -99,13 +110,7 @@ void SquareTriangulation::make_delaunay(std::uint32_t p) {
 
 /// Turns the side opposite to the corner: a, b, c and d, c, b become a, b, d and a, d, c.
 void SquareTriangulation::flip(Corner opposite) {
-  const std::uint32_t t = opposite.t, k = opposite.k, u = triangles_[t].n[k];
-  const std::uint32_t j = back_from(u, t);
-  const auto [v, n] = triangles_[t];
-  const auto [w, m] = triangles_[u];
-  const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], d = w[j];
-  const std::uint32_t n_ca = n[(k + 1) % 3], n_ab = n[(k + 2) % 3];
-  const std::uint32_t m_bd = m[(j + 1) % 3], m_dc = m[(j + 2) % 3];
+  const auto [t, u, a, b, c, d, n_ca, n_ab, m_bd, m_dc] = quadrangle(opposite);
   set(t, {a, b, d}, {m_bd, u, n_ab});
   set(u, {a, d, c}, {m_dc, n_ca, t});
   relink(m_bd, u, t);

@@ -48,6 +48,12 @@ class SquareTriangulation {
   struct Corner {
     std::uint32_t t, k;
   };
+  /// Triangles t = a b c and u = d c b beside it, and what lies across their outer sides: n of t, m of u.
+  struct Quadrangle {
+    std::uint32_t t, u;
+    std::uint32_t a, b, c, d;
+    std::uint32_t n_ca, n_ab, m_bd, m_dc;
+  };
 
   int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     return orientation(points_[a], points_[b], points_[c]);
@@ -65,6 +71,8 @@ class SquareTriangulation {
   std::uint32_t locate(std::uint32_t p);
   void insert_point(std::uint32_t p);
   void split_triangle(std::uint32_t t, std::uint32_t p);
+  /// Around the side opposite to corner a.
+  Quadrangle quadrangle(Corner opposite) const;
   void split_side(Corner opposite, std::uint32_t p);
   void make_delaunay(std::uint32_t p);
   void flip(Corner opposite);

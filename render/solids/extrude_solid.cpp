@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/volumes/volumes.h"
@@ -17,17 +18,13 @@ constexpr double kUsualTolerance = 0.01;
 /// The umbra is judged at points by a light that is larger by this.
 constexpr double kLarger = 1.002;
 
+/// A distant light by the tangent of half its angle, so that it stays below 180 degrees.
 LightShape enlarged(LightShape light) {
   if (auto* disk = std::get_if<DiskLight>(&light)) disk->radius *= kLarger;
-  if (auto* distant = std::get_if<DistantLight>(&light)) distant->angle_degrees *= kLarger;
+  if (auto* distant = std::get_if<DistantLight>(&light))
+    distant->angle_degrees =
+        glm::degrees(2.0 * std::atan(kLarger * std::tan(glm::radians(0.5 * distant->angle_degrees))));
   return light;
-}
-
-std::vector<TriangleMesh> casting_meshes(const Casters& casters) {
-  std::vector<TriangleMesh> meshes;
-  for (const SceneObject& object : casters.objects())
-    if (object.casts && !object.mesh.empty()) meshes.push_back(object.mesh);
-  return meshes;
 }
 
 detail::JudgePoints judge_of(const Casters& casters, const LightShape& light) {
@@ -88,7 +85,7 @@ ShadowSolid extrude_solid(const Casters& casters, const LightShape& light, const
     throw UsageError("the tolerance of a solid must be a number of scene units from 0 on");
   if (!(level.fraction > 0.0 && level.fraction < 1.0))
     throw UsageError("the level of a solid must be a fraction of the light above 0 and below 1");
-  const std::vector<TriangleMesh> meshes = casting_meshes(casters);
+  const std::vector<TriangleMesh> meshes = detail::casting_meshes(casters);
   if (meshes.empty()) return {};
   const Bounds bound = bound_of(meshes, options);
   Bounds box;

@@ -90,9 +90,7 @@ LightField light_field(const Casters& casters, const LightShape& light, const Bo
     total *= static_cast<std::size_t>(counts[k]);
   }
   out.seen.assign(total, 1.0f);
-  std::vector<TriangleMesh> meshes;
-  for (const SceneObject& object : casters.objects())
-    if (object.casts && !object.mesh.empty()) meshes.push_back(object.mesh);
+  const std::vector<TriangleMesh> meshes = detail::casting_meshes(casters);
   const detail::CasterTree tree(meshes, circular);
   const detail::LitBoxes boxes(tree, circular, box);
   const Blocks blocks(out);

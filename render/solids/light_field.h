@@ -19,7 +19,8 @@ struct LightField {
 };
 
 /// `counts` points along each axis, from the box's lowest corner to its highest; at least 2 along each. Blocks of points that are
-/// proved to be lit are not looked at one by one. On the casters' threads. Throws UsageError for a rectangle, an empty box, or
+/// proved to be lit are not looked at one by one. On the casters' threads. Cost: the call for visibility at all other points, four
+/// bytes a point. Throws UsageError for a rectangle, an empty box, or
 /// counts out of range (2 to 2,048); Cancelled.
 LightField light_field(const Casters& casters, const LightShape& light, const Bounds& box,
                        const std::array<int, 3>& counts, const Progress& progress = {});

@@ -7,6 +7,13 @@ constexpr std::size_t kTile = 8;  // receivers a side
 
 }  // namespace
 
+std::vector<TriangleMesh> casting_meshes(const Casters& casters) {
+  std::vector<TriangleMesh> meshes;
+  for (const SceneObject& object : casters.objects())
+    if (object.casts && !object.mesh.empty()) meshes.push_back(object.mesh);
+  return meshes;
+}
+
 std::vector<float> seen_from(const Casters& casters, const LightShape& light, std::span<const Vec3> points) {
   if (points.empty()) return {};
   // A picture eight rows high, a tile beside the other; the last is filled up with the last point.

@@ -1,4 +1,5 @@
-// Points in an order in which neighbors in the list are neighbors in space, for the one call for visibility.
+// What solids and fields ask of casters: their meshes, and visibility at points of which neighbors in the list are neighbors
+// in space.
 #pragma once
 
 #include <span>
@@ -7,6 +8,9 @@
 #include "penumbra/render/visibility.h"
 
 namespace penumbra::detail {
+
+/// Of the objects that cast and are not empty.
+std::vector<TriangleMesh> casting_meshes(const Casters& casters);
 
 /// O at each point. Each 64 that follow one another are one tile of receivers, so that nothing is sorted. Silhouettes are those of
 /// all edges, none merged.

@@ -10,12 +10,14 @@
 namespace penumbra::yardstick {
 namespace {
 
-/// The scene of the same family at unit scale. `comparable`: the object of which it shows the same.
+/// The scene of the same family at unit scale. `comparable`: the object of which it shows the same. `is_pattern`: rows measure
+/// it, and areas are as good as those of patterns.cpp.
 struct Family {
   std::string prefix, base;
   std::optional<int> comparable{};
+  bool is_pattern = false;
 };
-const std::array<Family, 6> kFamilies{{{"blinds", "blinds"},
+const std::array<Family, 6> kFamilies{{{"blinds", "blinds", {}, true},
                                        {"ground_", "ground_2e1"},
                                        {"stray", "ground_2e1"},
                                        {"sheet_", "sheet_1e-1"},
@@ -39,6 +41,12 @@ const Family& family_of(const std::string& name) {
   return *family;
 }
 
+std::vector<Contender> contenders_for(const Family& family) {
+  std::vector<Contender> all = contenders();
+  if (family.is_pattern) std::ranges::find(all, "silhouette", &Contender::method)->limits = kPatternLimits;
+  return all;
+}
+
 }  // namespace
 
 void judge_cases(Report& report) {
@@ -49,10 +57,10 @@ void judge_cases(Report& report) {
     JudgedScene& base =
         bases.try_emplace(family.base, scene_named(family.base), family.comparable).first->second;
     if (name == family.base) {
-      judge_all(report, "cases/" + name, base, &base, contenders());
+      judge_all(report, "cases/" + name, base, &base, contenders_for(family));
     } else {
       JudgedScene scene(scene_named(name), family.comparable);
-      judge_all(report, "cases/" + name, scene, &base, contenders());
+      judge_all(report, "cases/" + name, scene, &base, contenders_for(family));
     }
   }
 }

@@ -27,6 +27,8 @@ struct Limits {
   /// Of any pixel.
   double most = 1.0;
 };
+/// Of `silhouette` where regular patterns are measured by rows.
+inline constexpr Limits kPatternLimits{0.003, 0.03};
 
 struct Contender {
   std::string method;

@@ -13,8 +13,6 @@
 namespace penumbra::yardstick {
 namespace {
 
-// Limits of the error of V over each kind.
-constexpr double kMostRmse = 0.003, kMostError = 0.03;
 constexpr int kOfEachKind = 40;
 
 /// V as the silhouette method would have it: rays to the aims tell whether anything is visible.
@@ -123,7 +121,7 @@ void judge_patterns(Report& report) {
     if (!report.wants(name)) continue;
     const KindFigures f = figures_of(static_cast<int>(kind), static_cast<int>(kinds.size()));
     const double rmse = std::sqrt(f.squares / f.count);
-    report.add(name, rmse <= kMostRmse && f.most <= kMostError && f.unresolved == 0,
+    report.add(name, rmse <= kPatternLimits.rmse && f.most <= kPatternLimits.most && f.unresolved == 0,
                text("%d patterns, RMSE %.5f, at most %.4f; exact %d, unresolved %d", f.count, rmse, f.most,
                     f.exact, f.unresolved));
   }
@@ -133,8 +131,8 @@ void judge_patterns(Report& report) {
     JudgedScene scene(scene_of(layers));
     const Verdict& v = scene.verdict(contender("silhouette"));
     report.add(name + "/silhouette",
-               v.trouble.empty() && v.penumbra > 1000 && v.rmse <= kMostRmse && v.most <= kMostError &&
-                   v.contradicted == 0,
+               v.trouble.empty() && v.penumbra > 1000 && v.rmse <= kPatternLimits.rmse &&
+                   v.most <= kPatternLimits.most && v.contradicted == 0,
                text_of(v));
   }
 }

@@ -30,14 +30,6 @@ struct Arguments {
   double voxel = 0.0;
 };
 
-Bounds box_of(const Scene& scene) {
-  const Bounds box = solid_bound_for(scene);
-  if (!box.empty()) return box;
-  const Bounds casters = scene.bounds();
-  const Vec3 by(2.0 * casters.radius());
-  return {casters.low - by, casters.high + by};
-}
-
 /// `grid` points along the longest side, or points `voxel` apart; nearly cubes.
 std::array<int, 3> counts_for(const Bounds& box, const Arguments& arguments) {
   const Vec3 size = box.high - box.low;
@@ -56,13 +48,10 @@ void run(const Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
   const std::size_t light = arguments.light.empty() ? 0 : scene.light_index(arguments.light);
-  const Bounds box = box_of(scene);
-  std::vector<SceneObject> objects;
-  for (const SceneObject& object : scene.objects)
-    if (object.casts) objects.push_back(object);
+  const Bounds box = solid_bound_for(scene);
   ProgressLine line("field");
   const LightField field =
-      light_field(Casters(std::move(objects), arguments.common.threads), scene.lights[light].shape, box,
+      light_field(Casters(scene.objects, arguments.common.threads), scene.lights[light].shape, box,
                   counts_for(box, arguments), line.callback());
   write_light_field(arguments.output, field);
   say_written(arguments.common.verbose, arguments.output);
