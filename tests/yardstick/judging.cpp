@@ -1,7 +1,9 @@
 #include "tests/yardstick/judging.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
 
 #include "apps/cli/judge.h"
 
@@ -17,15 +19,25 @@ OptionValues samples(std::uint64_t count) {
   return {{"samples", count}};
 }
 
+/// Whether the light's center lies in the receiver's plane, as far as rounding tells: a hard shadow has no value there.
+bool is_grazed(const LightShape& light, const Vec3& point, const Vec3& normal) {
+  constexpr double kRounding = 1e-9;
+  const CircularLight circular = require_circular(light, "hard shadows");
+  const Vec3 way = circular.is_distant() ? circular.center : circular.center - point;
+  return std::abs(glm::dot(normal, way)) <= kRounding * glm::length(way);
+}
+
 /// Pixels whose V is partial or unlike that of a pixel beside, and some of the others; ascending. Nothing of the methods
 /// has a share in the choice.
 std::vector<std::uint32_t> choose_pixels(const Scene& scene, const PictureSize& size,
-                                         std::optional<int> object) {
+                                         std::optional<int> object, bool is_hard) {
+  const LightShape& light = scene.lights.front().shape;
   const SurfaceBuffer surface = apps::surface_by_oracle(scene, size.width, size.height);
   std::vector<std::uint32_t> seen, changing, others;
   for (std::uint32_t i = 0; i < surface.size(); ++i)
-    if (surface.hit(i)) seen.push_back(i);
-  const apps::Judge judge(scene, scene.lights.front().shape);
+    if (surface.hit(i) && !(is_hard && is_grazed(light, surface.position[i], surface.normal[i])))
+      seen.push_back(i);
+  const apps::Judge judge(scene, light);
   const std::vector<float> values = judge.visibility(surface, seen, kFewRays, kSeed);
   std::vector<float> visibility(surface.size(), -1.0f);
   for (std::size_t k = 0; k < seen.size(); ++k) visibility[seen[k]] = values[k];
@@ -119,7 +131,7 @@ apps::SceneComparison& JudgedScene::judge_for(const Contender& contender) {
         judged, apps::Judged{.object = kind.object, .light = {}},
         apps::TraceOptions{.samples = kind.is_hard ? 1 : kRays,
                            .oracle_pixels = kChanging + kOthers,
-                           .pixels = choose_pixels(judged, kind.size, kind.object)});
+                           .pixels = choose_pixels(judged, kind.size, kind.object, kind.is_hard)});
   }
   return *judge;
 }

@@ -153,8 +153,8 @@ Scene moved(const Scene& scene, const Move& move) {
 void judge_moves(Report& report) {
   for (const char* name : {"ground_2e1", "sheet_1e-2", "sun_distant", "boxes-medium", "bunny-small"})
     judge_moves_of(report, name, false);
-  for (const char* name : {"ground_1e4", "ground_1e6", "stray", "sheet_1e-4", "sheet_1e-5", "sun_1e8",
-                           "lamp_in_wall_plane_1e-3"})
+  // Not those with a lamp in a wall's plane: after a turn rounding decides on which side of the wall it lies.
+  for (const char* name : {"ground_1e4", "ground_1e6", "stray", "sheet_1e-4", "sheet_1e-5", "sun_1e8"})
     judge_moves_of(report, name, true);
 }
 

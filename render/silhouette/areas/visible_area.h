@@ -17,8 +17,8 @@
 // This is exact where only two depth complexities occur, so that rows only have to measure the overlap. The mean of
 // both families counts, if they agree: on the lowest depth complexity, on its area, and each with the integral of
 // L. Where they do not, something regular keeps step with a family, or is so thin that rows miss it. Then slabs are
-// swept, as many as four times the rows would cost, or else four times as many rows, and so on. What is left after
-// that is said in the result.
+// swept, as many as twice the rows would cost, or else twice as many rows, and so on up to sixteen times. What is
+// left after that is said in the result.
 //
 // Slivers: silhouettes of merged faces (merge/merged_edges.h) turn back here and there, in slivers that the
 // true silhouettes do not have, at depth complexities that may lie below the true lowest. These are left
@@ -36,6 +36,9 @@
 #include "render/silhouette/areas/slabs.h"
 
 namespace penumbra::detail {
+
+/// How many numbers of rows are tried.
+inline constexpr std::size_t kRowLevels = 4;
 
 enum class AreaMethod { kChain, kSlabs, kRows };
 
@@ -80,10 +83,10 @@ class VisibleArea {
 
   Slabs slabs_;
   RowMemory memory_;
-  /// One family where it is enough; both with three quarters of the rows, with four and with sixteen times as many;
+  /// One family where it is enough; both with three quarters of the rows, with two, four and sixteen times as many;
   /// both with few rows. Each keeps its heights.
   Rows alone_;
-  std::array<Families, 3> families_;
+  std::array<Families, kRowLevels> families_;
   Families few_;
 };
 
