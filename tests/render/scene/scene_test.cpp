@@ -1,4 +1,5 @@
 #include "penumbra/render/scene/scene.h"
+#include "render/light/light_integrals.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -293,6 +294,24 @@ TEST_F(SceneTest, BareMeshGetsFloorLightAndCameraInProportion) {
       for (const Vec3& p : scene.objects[1].mesh.positions()) EXPECT_TRUE(sees(scene.camera, p, 4.0 / 3.0));
       for (const Vec3& p : scene.objects[1].mesh.positions())
         EXPECT_GT(glm::dot(p - disk_of(scene).center, disk_of(scene).normal), 0.0);
+      for (const Vec3& p : scene.objects[1].mesh.positions()) {
+        const Vec3 way = p - disk_of(scene).center,
+                   shadow = p + way * ((p.y - floor.low.y) / (disk_of(scene).center.y - p.y));
+        EXPECT_NEAR(shadow.y, floor.low.y, 1e-9 * mesh.radius() + 1e-15 * std::abs(floor.low.y));
+        EXPECT_TRUE(sees(scene.camera, shadow, 4.0 / 3.0));
+        EXPECT_LT(glm::distance(shadow, floor.center()), scene.objects[0].fade.to)
+            << "on what is seen of the floor";
+      }
+      EXPECT_LE(scene.objects[0].fade.to, 0.5 * (floor.high.x - floor.low.x) * (1 + 1e-12))
+          << "no edge is seen";
+      EXPECT_GT(scene.picture.ambient.x, 0.0);
+      // Neither dark nor clipped: what the floor has of light at the mesh's foot, exposure 0.
+      const Vec3 foot{mesh.center().x, floor.low.y, mesh.center().z};
+      const double lit = scene.objects[0].albedo.x / 3.14159265358979 * scene.lights[0].radiance.x *
+                             disk_irradiance_factor(disk_of(scene), foot, {0, 1, 0}) +
+                         scene.objects[0].albedo.x * scene.picture.ambient.x;
+      EXPECT_GT(lit, 0.6);
+      EXPECT_LT(lit, 0.9);
     }
 }
 
