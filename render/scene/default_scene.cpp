@@ -1,6 +1,8 @@
 #include "render/scene/default_scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
@@ -26,7 +28,9 @@ Vec3 foot_of(const Bounds& bounds) {
 }
 
 // What a bare mesh gets. Lengths are radii of its bounding sphere; numbers were chosen by looking at pictures.
-constexpr double kLightDistance = 20.0, kLightElevation = 50.0, kLightRadius = 1.5;
+constexpr double kLightDistance = 11.0, kLightElevation = 55.0, kLightRadius = 0.82;
+// It aims beyond the mesh, so that the floor gets about as much on either side of it.
+constexpr double kLightAim = 42.0;
 // From the camera's left and a little from behind it, so that the shadow falls to the right, into view.
 constexpr double kLightAzimuth = -72.0;
 constexpr double kCameraElevation = 22.0, kCameraAzimuth = 32.0, kCameraFov = 30.0;
@@ -36,7 +40,7 @@ constexpr double kAspect = 4.0 / 3.0;
 // So that the mesh does not lie in the floor's plane.
 constexpr double kFloorBelow = 1e-3;
 // Of the radius of mesh and shadow on the floor: where the floor begins to fade, and where it has faded.
-constexpr double kFadeFrom = 0.8, kFadeTo = 3.0;
+constexpr double kFadeFrom = 0.7, kFadeTo = 2.8;
 // Linear RGB: the floor at the mesh's foot where no shadow is, and the sky. Together they nearly make the background.
 constexpr double kFloorRadiance = 0.70, kAmbient = 0.11, kFloorAlbedo = 0.8;
 // Bright enough beside the floor, and not clipped where it faces the light.
@@ -53,7 +57,7 @@ Vec3 direction_to(double azimuth_degrees, double elevation_degrees) {
 DiskLight light_for(const Bounds& bounds) {
   const Vec3 towards = direction_to(kCameraAzimuth + kLightAzimuth, kLightElevation);
   return {.center = foot_of(bounds) + bounds.radius() * kLightDistance * towards,
-          .normal = -towards,
+          .normal = -direction_to(kCameraAzimuth + kLightAzimuth, kLightAim),
           .radius = bounds.radius() * kLightRadius};
 }
 
@@ -61,12 +65,48 @@ double floor_height(const Bounds& bounds) {
   return bounds.low.y - kFloorBelow * bounds.radius();
 }
 
-/// The mesh's points, and where they hide the light's center from the floor.
-std::vector<Vec3> mesh_and_shadow(const TriangleMesh& mesh, const Bounds& bounds, const Vec3& light) {
-  std::vector<Vec3> points(mesh.positions().begin(), mesh.positions().end());
-  const double floor = floor_height(bounds);
-  for (std::size_t i = 0; i < mesh.positions().size(); ++i) {
-    const Vec3& p = mesh.positions()[i];
+struct Part {
+  std::vector<Vec3> corners;
+  Bounds bounds;
+  double area = 0.0;
+};
+
+Part part_of(const TriangleMesh& mesh, const Component& component) {
+  Part part;
+  for (const FaceId face : component.faces) {
+    const auto& [i, j, k] = mesh.triangles()[index(face)];
+    const Vec3 &a = mesh.positions()[i], &b = mesh.positions()[j], &c = mesh.positions()[k];
+    part.corners.insert(part.corners.end(), {a, b, c});
+    part.area += 0.5 * glm::length(glm::cross(b - a, c - a));
+  }
+  part.bounds = bounds_of(part.corners);
+  return part;
+}
+
+/// Points of all that a picture has to show. Scans come with specks, far off or below: parts smaller than a share of the
+/// largest one do not count, where all of them together are little of the surface.
+std::vector<Vec3> points_that_count(const TriangleMesh& mesh) {
+  constexpr double kSpeck = 0.02, kLittle = 0.01;
+  std::vector<Vec3> all(mesh.positions().begin(), mesh.positions().end());
+  if (mesh.components().size() < 2) return all;
+  std::vector<Part> parts;
+  for (const Component& component : mesh.components()) parts.push_back(part_of(mesh, component));
+  double largest = 0.0, area = 0.0, specks = 0.0;
+  for (const Part& part : parts) largest = std::max(largest, part.bounds.radius());
+  const auto is_speck = [&](const Part& part) { return part.bounds.radius() < kSpeck * largest; };
+  for (const Part& part : parts) (is_speck(part) ? specks : area) += part.area;
+  if (specks == 0.0 || !(specks < kLittle * area)) return all;
+  all.clear();
+  for (const Part& part : parts)
+    if (!is_speck(part)) all.insert(all.end(), part.corners.begin(), part.corners.end());
+  return all;
+}
+
+/// Where the points hide the light's center from the floor, after the points.
+std::vector<Vec3> with_shadow(std::vector<Vec3> points, double floor, const Vec3& light) {
+  const std::size_t count = points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 p = points[i];
     points.push_back(light + (p - light) * ((light.y - floor) / (light.y - p.y)));
   }
   return points;
@@ -137,12 +177,13 @@ Camera camera_for(const Bounds& bounds) {
 }
 
 Scene scene_around(const TriangleMesh& mesh, const std::string& name) {
-  const Bounds bounds = bounds_of(mesh.positions());
+  std::vector<Vec3> shown = points_that_count(mesh);
+  const Bounds bounds = bounds_of(shown);
   if (!(bounds.radius() > 0.0))
     throw MeshError(name + ": has no extent; a scene needs a mesh larger than a point");
   Scene scene;
   const DiskLight disk = light_for(bounds);
-  const std::vector<Vec3> points = mesh_and_shadow(mesh, bounds, disk.center);
+  const std::vector<Vec3> points = with_shadow(std::move(shown), floor_height(bounds), disk.center);
   scene.lights.push_back({.name = {}, .shape = disk, .radiance = radiance_for(disk, bounds)});
   scene.camera = camera_on(points);
   scene.picture = {.ambient = Vec3(kAmbient), .antialias = kAntialias};
