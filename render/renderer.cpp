@@ -6,6 +6,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "render/antialias.h"
 #include "render/casters_impl.h"
 #include "render/d_buffer/d_buffer_method.h"
 #include "render/light/valid_light.h"
@@ -27,6 +28,12 @@ void add_to(StageTimes& sums, const StageTimes& times) {
     else
       same->milliseconds += time.milliseconds;
   }
+}
+
+std::vector<LightVisibility> seen_of(const std::vector<MethodFrame>& lights) {
+  std::vector<LightVisibility> seen;
+  for (const MethodFrame& frame : lights) seen.push_back({frame.visibility, frame.region});
+  return seen;
 }
 
 /// Channels of several lights have the lights' names.
@@ -56,8 +63,17 @@ void register_drawing_methods() {
 struct Renderer::State {
   State(Scene scene_, int threads) : scene(std::move(scene_)), casters(scene.objects, threads) {}
 
+  /// Throws what Renderer::render does for options, lights and places.
+  void require_good(const MethodInfo& info, const RenderOptions& options) const;
   /// What the camera sees; that of the picture before where nothing has changed that it depends on.
   const SurfaceBuffer& look(const RenderOptions& options);
+  /// What the surface sees of every light. Adds the time of stages to `stages`.
+  std::vector<MethodFrame> see(const MethodInfo& info, const OptionValues& values,
+                               const SurfaceBuffer& surface, bool keep_textures, const Progress& progress,
+                               StageTimes& stages);
+  /// Replaces R G B A of a picture of pixels' centers by means over all samples.
+  void add_samples(const MethodInfo& info, const RenderOptions& options, const Progress& progress,
+                   RenderResult& out);
 
   Scene scene;
   Casters casters;
@@ -76,6 +92,75 @@ const SurfaceBuffer& Renderer::State::look(const RenderOptions& options) {
     seen =
         Seen{scene.camera, make_surface_buffer(scene, casters.impl().rays(), options.width, options.height)};
   return seen->surface;
+}
+
+void Renderer::State::require_good(const MethodInfo& info, const RenderOptions& options) const {
+  for (const Light& light : scene.lights) {
+    require_valid(light.shape);
+    require_taken(info, light.shape);
+  }
+  if (const std::string complaint = detail::out_of_range(scene); !complaint.empty())
+    throw SceneError("scene: " + complaint);
+  if (options.antialias < 1 || options.antialias > kMostAntialias)
+    throw UsageError("antialias " + std::to_string(options.antialias) + " is outside 1 to " +
+                     std::to_string(kMostAntialias));
+}
+
+std::vector<MethodFrame> Renderer::State::see(const MethodInfo& info, const OptionValues& values,
+                                              const SurfaceBuffer& surface, bool keep_textures,
+                                              const Progress& progress, StageTimes& stages) {
+  std::vector<MethodFrame> frames;
+  const auto count = static_cast<double>(scene.lights.size());
+  for (std::size_t k = 0; k < scene.lights.size(); ++k) {
+    const auto begin = static_cast<double>(k);
+    const Progress part = part_of(progress, begin / count, (begin + 1.0) / count);
+    MethodResult result = casters.impl().method(info).run({.rays = casters.impl().rays(),
+                                                           .light = scene.lights[k].shape,
+                                                           .receivers = surface.receivers(),
+                                                           .options = values,
+                                                           .keep_textures = keep_textures,
+                                                           .progress = part});
+    require_complete(info, result, surface.size());
+    add_to(stages, result.stages);
+    frames.push_back({.light = scene.lights[k].name,
+                      .visibility = std::move(result.visibility),
+                      .region = std::move(result.region),
+                      .stages = std::move(result.stages),
+                      .setup = std::move(result.setup),
+                      .counts = std::move(result.counts),
+                      .renderer = std::move(result.renderer),
+                      .textures = std::move(result.textures)});
+  }
+  return frames;
+}
+
+void Renderer::State::add_samples(const MethodInfo& info, const RenderOptions& options,
+                                  const Progress& progress, RenderResult& out) {
+  const std::vector<PointInPixel> points = detail::samples_of_pixel(options.antialias);
+  detail::ColorSums sums(out.surface.size());
+  OptionValues values = out.options;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].is_center()) {
+      sums.add(out.image);
+      continue;
+    }
+    if (info.converges) values["seed"] = integer_of(values, "seed") + 1;
+    const auto begin = static_cast<double>(i), count = static_cast<double>(points.size());
+    StageClock clock;
+    const SurfaceBuffer surface =
+        make_surface_buffer(scene, casters.impl().rays(), options.width, options.height, points[i]);
+    clock.finish("surface_buffer");
+    const std::vector<MethodFrame> frames = see(
+        info, values, surface, false, part_of(progress, begin / count, (begin + 1.0) / count), out.stages);
+    clock.restart();
+    sums.add(shade_colors(scene, surface, seen_of(frames), casters.impl().threads));
+    clock.finish("shading");
+    add_to(out.stages, clock.stages());
+  }
+  StageClock clock;
+  sums.write_means(out.image);
+  clock.finish("shading");
+  add_to(out.stages, clock.stages());
 }
 
 Renderer::Renderer(Scene scene, int threads) : state_(std::make_unique<State>(std::move(scene), threads)) {
@@ -128,61 +213,34 @@ RenderResult Renderer::render(const RenderOptions& options) {
   out.method = info.name;
   require_known(options.options);
   out.options = completed(info.options, options.options);
-  StageClock clock;
-  Casters::Impl& casters = state_->casters.impl();
-  const std::vector<Light>& lights = state_->scene.lights;
-  for (const Light& light : lights) {
-    require_valid(light.shape);
-    require_taken(info, light.shape);
-  }
-  if (const std::string complaint = detail::out_of_range(state_->scene); !complaint.empty())
-    throw SceneError("scene: " + complaint);
-  const RayScene& rays = casters.rays();
-  clock.restart();  // one-time set-up, not a stage
+  out.antialias = options.antialias;
+  state_->require_good(info, options);
+  const RayScene& rays = state_->casters.impl().rays();
+  StageClock clock;  // one-time set-up is no stage
   const SurfaceBuffer& surface = state_->look(options);
   clock.finish("surface_buffer");
+  out.stages = clock.stages();
   report(options.progress, 0.0);
-  std::vector<LightVisibility> seen;
-  StageTimes setup;
-  for (std::size_t k = 0; k < lights.size(); ++k) {
-    Method& method = casters.method(info);
-    const Progress part = [&](double f) {
-      return !options.progress ||
-             options.progress((static_cast<double>(k) + f) / static_cast<double>(lights.size()));
-    };
-    MethodResult result = method.run({.rays = rays,
-                                      .light = lights[k].shape,
-                                      .receivers = surface.receivers(),
-                                      .options = out.options,
-                                      .keep_textures = options.keep_textures,
-                                      .progress = part});
-    require_complete(info, result, surface.size());
-    if (auto warning = why_nothing_is_lit(lights[k], surface.receivers(), result.visibility))
-      out.warnings.push_back(std::move(*warning));
-    add_to(out.stages, result.stages);
-    add_to(setup, result.setup);
-    out.lights.push_back({.light = lights[k].name,
-                          .visibility = std::move(result.visibility),
-                          .region = std::move(result.region),
-                          .stages = std::move(result.stages),
-                          .setup = std::move(result.setup),
-                          .counts = std::move(result.counts),
-                          .renderer = std::move(result.renderer),
-                          .textures = std::move(result.textures)});
-  }
-  report(options.progress, 1.0);
-  for (const MethodFrame& frame : out.lights) seen.push_back({frame.visibility, frame.region});
+  // The picture of pixels' centers, and then one for each sample.
+  const double first = options.antialias > 1 ? 1.0 / (1.0 + options.antialias * options.antialias) : 1.0;
+  out.lights = state_->see(info, out.options, surface, options.keep_textures,
+                           part_of(options.progress, 0.0, first), out.stages);
+  report(options.progress, first);
   StageClock shading;
-  out.image = shade(state_->scene, surface, seen, casters.threads);
+  out.image = shade(state_->scene, surface, seen_of(out.lights), state_->casters.impl().threads);
   shading.finish("shading");
+  add_to(out.stages, shading.stages());
   out.surface = surface;
-  StageTimes stages = clock.stages();
-  add_to(stages, out.stages);
-  add_to(stages, shading.stages());
-  out.stages = std::move(stages);
+  if (options.antialias > 1) state_->add_samples(info, options, part_of(options.progress, first, 1.0), out);
+  report(options.progress, 1.0);
   for (const StageTime& stage : out.stages) out.frame_ms += stage.milliseconds;
   out.setup = {{"ray_scene", rays.build_ms()}};
-  add_to(out.setup, setup);
+  for (std::size_t k = 0; k < out.lights.size(); ++k) {
+    add_to(out.setup, out.lights[k].setup);
+    if (auto warning =
+            why_nothing_is_lit(state_->scene.lights[k], surface.receivers(), out.lights[k].visibility))
+      out.warnings.push_back(std::move(*warning));
+  }
   for (const SceneObject& object : state_->scene.objects) out.scene_faces += object.mesh.triangles().size();
   return out;
 }

@@ -25,6 +25,11 @@ struct RenderOptions {
   OptionValues options{};
   /// Pixels, 1 to 65,536 a side.
   int width = 640, height = 480;
+  /// R G B A are means over this many samples along each side of a pixel, 1 to kMostAntialias: surface, visibility and
+  /// shading at the centers of as many squares. All other channels are those of the pixel's center, bit for bit what they
+  /// are without. Costs as many frames as a pixel has samples, one more where the number is even, and no memory but
+  /// that of one more frame. Methods that converge take another seed for each.
+  int antialias = 1;
   /// MethodFrame::textures is wanted.
   bool keep_textures = false;
   /// Asked between stages and in the long ones.
@@ -54,7 +59,9 @@ struct RenderResult {
   std::vector<MethodFrame> lights;
   /// In order; times of one name are summed over lights.
   StageTimes stages;
-  /// All stages that a new frame needs: no one-time set-up, no file output.
+  /// In each pixel, as RenderOptions::antialias.
+  int antialias = 1;
+  /// All stages that a new frame needs, all samples of a pixel among them: no one-time set-up, no file output.
   double frame_ms = 0.0;
   /// One-time set-up so far.
   StageTimes setup;
@@ -82,12 +89,12 @@ class Renderer {
   void set_light(std::size_t index, const Light& light);
 
   /// Throws UsageError for an unknown method, options outside their domain, a light that is not valid or that the
-  /// method does not take, a side outside 1 to 65,536; SceneError where something is too far from the casters
+  /// method does not take, a side outside 1 to 65,536, an antialias outside 1 to kMostAntialias; SceneError where something is too far from the casters
   /// (docs/scene-file.md); SystemError where OpenGL does not start; Cancelled.
   RenderResult render(const RenderOptions& options);
   /// The next picture finds everything anew but for one-time set-up, though nothing has changed: for timing.
   void forget();
-  /// Shades the last picture's surface with other visibilities, one a light.
+  /// Shades the last picture's surface with other visibilities, one a light, one sample a pixel.
   Image shade_again(const std::vector<std::vector<float>>& visibility) const;
   int threads() const;
 

@@ -186,7 +186,7 @@ void run(const Arguments& arguments) {
     reference = read_exr(arguments.scene.path);
   } else {
     scene = load(arguments.scene);
-    require_apart(arguments.outputs(), files_of(arguments.scene, *scene));
+    require_apart(arguments.outputs(), scene->files);
     to_scene.emplace(*scene, arguments.judged, arguments.trace);
   }
   const auto compare = [&](const Image& image) {

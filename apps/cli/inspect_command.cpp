@@ -61,6 +61,7 @@ std::string json_of(const MeshFindings& findings, const std::optional<RepairResu
 void run(const Arguments& arguments) {
   check(arguments);
   const PolygonSoup soup = read(arguments);
+  require_apart({{"--repair", arguments.repair}}, soup.material_paths);
   const MeshFindings findings =
       inspect(load_mesh(soup, is_standard(arguments.mesh) ? kStandardInput : arguments.mesh.string()));
   std::optional<RepairResult> repaired;

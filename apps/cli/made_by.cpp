@@ -15,6 +15,7 @@ constexpr const char* kOptions = "penumbraOptions";
 constexpr const char* kScene = "penumbraScene";
 constexpr const char* kLights = "penumbraLights";
 constexpr const char* kCamera = "penumbraCamera";
+constexpr const char* kPicture = "penumbraPicture";
 
 json to_json(const Vec3& v) {
   return {v.x, v.y, v.z};
@@ -85,6 +86,8 @@ Metadata metadata_of(const Scene& scene, const std::string& path, const RenderRe
   metadata[kMethod] = result.method;
   metadata[kOptions] = text_of(apps::to_json(result.options));
   metadata[kScene] = path;
+  metadata[kPicture] =
+      text_of({{"ambient", to_json(scene.picture.ambient)}, {"antialias", result.antialias}});
   return metadata;
 }
 

@@ -10,6 +10,7 @@
 #include "apps/common/method_options.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
+#include "apps/common/picture_options.h"
 #include "apps/common/stats.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
@@ -28,6 +29,7 @@ struct Arguments {
   CommonOptions common;
   SceneInput scene;
   std::string method = kDefaultMethod, size = "640x480", probe;
+  PictureOptions picture;
   std::vector<std::filesystem::path> images;
   std::filesystem::path stats;
   double exposure = 0.0;
@@ -75,18 +77,28 @@ void say_what_is_ignored(const Arguments& arguments) {
   const auto is_png = [](const std::filesystem::path& path) { return extension_of(path) != ".exr"; };
   if (arguments.exposure != 0.0 && std::ranges::none_of(arguments.images, is_png))
     say_ignored("--exposure", "no PNG is written");
+  if (arguments.picture.background && std::ranges::none_of(arguments.images, is_png))
+    say_ignored("--background", "no PNG is written; an EXR has alpha");
   if (arguments.warm_up > 0 && arguments.stats.empty() && !arguments.common.verbose)
     say_ignored("--warm-up", "times are in --stats and --verbose");
 }
 
-void write_image(const std::filesystem::path& path, const Image& image, double exposure) {
+void write_image(const std::filesystem::path& path, const Image& image, const Display& display) {
   constexpr std::int64_t kMany = 2'000'000;  // pixels that take a second or more
   ProgressLine progress("writing " + path.string());
   if (std::int64_t{image.width} * image.height > kMany) progress.begin();
   if (extension_of(path) == ".exr")
     write_exr(path, image);
   else
-    write_png(path, image, exposure);
+    write_png(path, image, display);
+}
+
+/// Whether it takes a second or more until the first pixel, in which nothing tells how far it is.
+bool takes_a_while(const Scene& scene) {
+  constexpr std::size_t kMany = 500'000;  // faces
+  std::size_t faces = 0;
+  for (const SceneObject& object : scene.objects) faces += object.mesh.triangles().size();
+  return faces > kMany;
 }
 
 void say_stages(const RenderResult& result) {
@@ -104,21 +116,25 @@ void run(const Arguments& arguments) {
   RenderOptions options = checked_options(arguments);
   const ThreadLimit limit(arguments.common.threads);
   say_what_is_ignored(arguments);
-  const Scene scene = load(arguments.scene);
-  require_apart(arguments.outputs(), files_of(arguments.scene, scene));
+  Scene scene = load(arguments.scene);
+  require_apart(arguments.outputs(), scene.files);
+  apply(arguments.picture, scene);
+  options.antialias = scene.picture.antialias;
   RenderResult result;
   {
     ProgressLine progress("rendering");
+    if (takes_a_while(scene)) progress.begin();
     options.progress = progress.callback();
     result = render(scene, options, arguments.common.threads, arguments.warm_up);
   }
-  if (std::ranges::all_of(result.image.at("A"), [](float a) { return a == 0.0f; }))
+  if (std::ranges::all_of(result.surface.object, [](std::int32_t object) { return object < 0; }))
     complain("warning: the camera sees no surface; the image is empty");
   for (const std::string& warning : result.warnings) complain("warning: " + warning);
   if (arguments.common.verbose) say_stages(result);
   result.image.metadata = metadata_of(scene, arguments.scene.path.string(), result);
+  const Display display{arguments.exposure, scene.picture.background};
   for (const auto& output : arguments.images) {
-    write_image(output, result.image, arguments.exposure);
+    write_image(output, result.image, display);
     say_written(arguments.common.verbose, output);
   }
   if (!arguments.stats.empty()) {
@@ -151,6 +167,7 @@ void add_render_command(CLI::App& app) {
       ->capture_default_str()
       ->type_name("WxH");
   add_exposure_option(command, arguments->exposure, "Stops by which a PNG is brighter; no effect on EXR");
+  add_picture_options(command, arguments->picture);
   command
       .add_option("--stats", arguments->stats,
                   "Write method, options, stage times and counts as JSON; - is standard output")

@@ -24,8 +24,9 @@ constexpr const char* kFooter = R"(Examples:
   penumbra volumes scene.json --umbra u.ply --penumbra p.ply --report -
   penumbra volumes scene.json --sheets s.obj --cone-segments 32
   penumbra volumes bunny.ply --form solid --umbra u.ply --penumbra p.ply --check
+  penumbra volumes bunny.ply --penumbra - > p.ply
   penumbra volumes scene.json --check
-Each file holds all casters. In PLY every triangle says its object (index in the scene), kind and source (face, edge or
+Each file holds all casters; - is PLY on standard output. In PLY every triangle says its object (index in the scene), kind and source (face, edge or
 vertex of that object's mesh, by kind). Inside a volume is where its winding number is at least 1: every point that an
 object partly or wholly hides from the light is inside its penumbra volume, and only points that it wholly hides are inside
 its umbra volume: all of them where the object is one convex body (guarantee exact), else as many as the convex and
@@ -48,6 +49,12 @@ struct Arguments {
   bool wants_sheets() const { return !sheets.empty(); }
   bool only_report() const {
     return umbra.empty() && penumbra.empty() && sheets.empty() && level_file.empty();
+  }
+  /// Where results go, of which one may be standard output. What --check finds goes there unless the report does.
+  std::vector<std::filesystem::path> destinations() const {
+    std::vector<std::filesystem::path> all = {umbra, penumbra, sheets, level_file, report};
+    if (check && !is_standard(report)) all.emplace_back("-");
+    return all;
   }
   bool solid() const { return form == "solid"; }
 };
@@ -88,8 +95,17 @@ void check(const Arguments& arguments) {
   const std::vector<Output> outputs = outputs_of(arguments, {""});
   for (const auto& [option, path] : outputs)
     if (!path.empty() && option != "--report")
-      require_extension(option, path, shadow_mesh_extensions(), false);
+      require_extension(option, path, shadow_mesh_extensions(), true);
+  require_one_stdout(arguments.destinations());
   require_good(outputs, {arguments.scene.path});
+}
+
+/// Of several lights there are several volumes.
+void require_files(const Arguments& arguments) {
+  for (const auto& path : {arguments.umbra, arguments.penumbra, arguments.sheets, arguments.level_file})
+    if (is_standard(path))
+      throw UsageError(
+          "volumes of several lights would go to standard output; choose one by --light, or name a file");
 }
 
 /// One line for each option that was given and has no effect.
@@ -183,7 +199,7 @@ nlohmann::json write(const Arguments& arguments, const Volumes& volumes, const s
       write_shadow_mesh(file, whole);
       say_written(arguments.common.verbose, file);
       if (whole.triangles.empty() && !parts.empty())
-        complain("warning: " + file.string() + " is empty: " + why_empty(name));
+        complain("warning: " + shown_name(file) + " is empty: " + why_empty(name));
     }
     if (arguments.merge && wanted && !parts.empty())
       report["scene"][name] = shadow_report(whole, volumes.caster_faces);
@@ -234,7 +250,8 @@ void run(const Arguments& arguments) {
             (lights.size() > 1 ? ", of light " + scene.lights[k].name + ", (see --light)" : "")));
   std::vector<std::string> names;
   for (const std::size_t k : lights) names.push_back(lights.size() > 1 ? scene.lights[k].name : "");
-  require_good(outputs_of(arguments, names), files_of(arguments.scene, scene));
+  if (names.size() > 1) require_files(arguments);
+  require_good(outputs_of(arguments, names), scene.files);
   nlohmann::json reports = nlohmann::json::array();
   bool good = true;
   for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -84,22 +84,29 @@ std::string read_standard_input() {
   return bytes;
 }
 
-Scene load(const SceneInput& input) {
-  const SceneOptions options = {.strict = input.strict};
-  LoadedScene loaded = is_standard(input.path)
-                           ? parse_scene_or_mesh(read_standard_input(), "", kStandardInput, options)
-                           : load_scene(input.path, options);
-  for (const std::string& warning : loaded.warnings) complain("warning: " + warning);
-  return std::move(loaded.scene);
+namespace {
+
+/// Whether reading takes a second or more. Meshes that a scene names are not looked at.
+bool is_large(const std::filesystem::path& path) {
+  constexpr std::uintmax_t kMany = 20'000'000;  // bytes
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  return !error && bytes > kMany;
 }
 
-std::vector<std::filesystem::path> files_of(const SceneInput& input, const Scene& scene) {
-  std::vector<std::filesystem::path> files = {input.path};
-  if (is_standard(input.path)) files.clear();
-  const std::filesystem::path folder = extension_of(input.path) == ".json" ? input.path.parent_path() : "";
-  for (const SceneObject& object : scene.objects)
-    if (!object.name.empty()) files.push_back(folder / object.name);
-  return files;
+}  // namespace
+
+Scene load(const SceneInput& input) {
+  const LoadedScene loaded = [&] {
+    const SceneOptions options = {.strict = input.strict};
+    if (is_standard(input.path))
+      return parse_scene_or_mesh(read_standard_input(), "", kStandardInput, options);
+    ProgressLine reading("reading " + input.path.string());
+    if (is_large(input.path)) reading.begin();
+    return load_scene(input.path, options);
+  }();
+  for (const std::string& warning : loaded.warnings) complain("warning: " + warning);
+  return loaded.scene;
 }
 
 void add_exposure_option(CLI::App& command, double& stops, const std::string& help) {

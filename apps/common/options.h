@@ -46,8 +46,6 @@ inline constexpr const char* kStandardInput = "standard input";
 std::string read_standard_input();
 /// Loads the scene, from standard input where the path is "-"; warnings go to standard error.
 Scene load(const SceneInput& input);
-/// The scene's file and those of its meshes.
-std::vector<std::filesystem::path> files_of(const SceneInput& input, const Scene& scene);
 
 /// --exposure, in stops.
 void add_exposure_option(CLI::App& command, double& stops, const std::string& help);

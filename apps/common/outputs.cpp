@@ -14,6 +14,10 @@
 
 namespace penumbra::apps {
 
+std::string shown_name(const std::filesystem::path& output) {
+  return is_standard(output) ? "standard output" : output.string();
+}
+
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -85,7 +89,7 @@ void require_apart(const std::vector<Output>& outputs, const std::vector<std::fi
 
 void say_written(bool verbose, const std::filesystem::path& path) {
   if (!verbose) return;
-  if (is_standard(path)) return complain("wrote to standard output");
+  if (is_standard(path)) return complain("wrote to " + shown_name(path));
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
   complain("wrote " + path.string() + (error ? "" : ", " + std::to_string(bytes) + " bytes"));

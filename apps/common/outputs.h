@@ -14,6 +14,9 @@ inline bool is_standard(const std::filesystem::path& path) {
   return path == "-";
 }
 
+/// For messages.
+std::string shown_name(const std::filesystem::path& output);
+
 /// In lower case, with the dot.
 std::string extension_of(const std::filesystem::path& path);
 

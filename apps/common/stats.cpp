@@ -32,12 +32,17 @@ nlohmann::json to_json(const Counts& counts) {
 }
 
 nlohmann::json stats_of(const RenderResult& result, int threads) {
-  nlohmann::json json = {
-      {"method", result.method},           {"options", to_json(result.options)},
-      {"stages", to_json(result.stages)},  {"frame_ms", result.frame_ms},
-      {"setup_ms", to_json(result.setup)}, {"width", result.surface.width},
-      {"height", result.surface.height},   {"threads", threads},
-      {"scene_faces", result.scene_faces}, {"renderer", renderer_of(result.lights.front(), threads)}};
+  nlohmann::json json = {{"method", result.method},
+                         {"options", to_json(result.options)},
+                         {"stages", to_json(result.stages)},
+                         {"frame_ms", result.frame_ms},
+                         {"setup_ms", to_json(result.setup)},
+                         {"width", result.surface.width},
+                         {"height", result.surface.height},
+                         {"threads", threads},
+                         {"antialias", result.antialias},
+                         {"scene_faces", result.scene_faces},
+                         {"renderer", renderer_of(result.lights.front(), threads)}};
   if (result.lights.size() == 1) {
     json["counts"] = to_json(result.lights.front().counts);
   } else {

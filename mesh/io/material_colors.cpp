@@ -35,6 +35,7 @@ void add_colors(PolygonSoup& soup, const std::filesystem::path& folder, const st
   for (const std::string& name : files_named(folder, file)) {
     try {
       const MaterialLibrary library = read_mtl(read_bytes(folder / name));
+      soup.material_paths.push_back(folder / name);
       for (const Material& material : library.materials)
         if (const auto found = wanted.find(material.name); found != wanted.end() && !found->second->color)
           found->second->color = material.color;

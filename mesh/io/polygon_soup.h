@@ -47,6 +47,8 @@ struct PolygonSoup {
   static constexpr std::uint32_t kNoMaterial = 0xFFFFFFFFu;
   /// Files of materials, as the file names them. read_polygon_soup reads them.
   std::vector<std::string> material_files;
+  /// Those that were read.
+  std::vector<std::filesystem::path> material_paths;
   /// What the file has and is not used, for people: "normals", "vertex colors".
   std::vector<std::string> ignored;
 

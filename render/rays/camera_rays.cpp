@@ -29,11 +29,11 @@ struct Seen {
 };
 
 /// The faces seen through up to 16 neighboring pixels of a row.
-void trace_row_part(const RayScene& rays, const PixelRays& pixels, int x0, int y, int count,
-                    RayPacket& packet, GroupRays& of_group, Seen* out) {
+void trace_row_part(const RayScene& rays, const PixelRays& pixels, const PointInPixel& at, int x0, int y,
+                    int count, RayPacket& packet, GroupRays& of_group, Seen* out) {
   for (int i = 0; i < kLanes; ++i) {
     packet.wanted[i] = i < count ? -1 : 0;
-    packet.set_way(i, pixels.direction(x0 + std::min(i, count - 1) + 0.5, y + 0.5));
+    packet.set_way(i, pixels.direction(x0 + std::min(i, count - 1) + at.x, y + at.y));
     out[i] = {};
   }
   std::array<NearestHit, RayPacket::kRays> nearest;
@@ -98,7 +98,8 @@ void place(const Vec3& origin, const Vec3& direction, const Seen& seen, std::siz
 
 }  // namespace
 
-SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height) {
+SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height,
+                                  const PointInPixel& at) {
   if (width <= 0 || height <= 0 || width > 65536 || height > 65536)
     throw UsageError("image size " + std::to_string(width) + "x" + std::to_string(height) +
                      " is outside 1x1 to 65536x65536");
@@ -121,7 +122,7 @@ SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int 
       Seen seen[kLanes];
       for (int x0 = 0; x0 < width; x0 += kLanes) {
         const int count = std::min(kLanes, width - x0);
-        trace_row_part(rays, pixels, x0, y, count, packet, of_group, seen);
+        trace_row_part(rays, pixels, at, x0, y, count, packet, of_group, seen);
         for (int i = 0; i < count; ++i)
           if (seen[i].geometry)
             place(pixels.origin, packet.way(i), seen[i],

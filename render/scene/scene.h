@@ -13,6 +13,7 @@
 #include "penumbra/mesh/triangle_mesh.h"
 #include "penumbra/render/light/light.h"
 #include "penumbra/render/scene/camera.h"
+#include "penumbra/render/scene/picture_settings.h"
 
 namespace penumbra {
 
@@ -36,6 +37,12 @@ struct SceneObject {
   std::vector<std::array<glm::vec3, 3>> corner_normals{};
   /// Albedos where its faces have several: empty, or one for each face, which then counts instead.
   FaceColors face_albedo{};
+  /// Only the shadow on it is shown: black, as opaque as the shadow is dark.
+  bool shadow_catcher = false;
+  /// From which distance from the middle of its bounds it fades into the background, and at which it has faded. 0: nowhere.
+  struct Fade {
+    double from = 0.0, to = 0.0;
+  } fade{};
 
   const Vec3& albedo_of(std::uint32_t face) const {
     return face < face_albedo.of_face.size() ? face_albedo.colors[face_albedo.of_face[face]] : albedo;
@@ -47,8 +54,11 @@ struct Scene {
   std::vector<Light> lights;
   Camera camera;
   std::vector<SceneObject> objects;
+  PictureSettings picture{};
   /// The file as read, JSON, keys beginning with `x-` included; empty for a scene made by hand.
   std::string document;
+  /// What was read for it: the scene's file, its meshes, their files of materials.
+  std::vector<std::filesystem::path> files{};
 
   /// Of all objects.
   Bounds bounds() const;

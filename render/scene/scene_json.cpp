@@ -1,6 +1,8 @@
 // Key by key.
 #include "render/scene/scene_json.h"
 
+#include <cmath>
+
 #include "penumbra/mesh/error.h"
 #include "render/scene/default_scene.h"
 #include "render/scene/scene_lights.h"
@@ -56,8 +58,15 @@ void read_object_mesh(const SceneNode& node, const SceneNode& mesh_node, const s
   }
 }
 
+SceneObject::Fade read_fade(const SceneNode& node) {
+  const std::vector<double> ends = node.numbers(2);
+  if (!(0.0 <= ends[0] && ends[0] < ends[1])) node.fail("must be two distances, the second one greater");
+  return {ends[0], ends[1]};
+}
+
 SceneObject read_object(const SceneNode& node, const std::filesystem::path& folder, MeshCache& meshes) {
-  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "smooth", "casts"});
+  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "smooth", "casts",
+                   "shadow_catcher", "fade"});
   const SceneNode mesh = node.required("mesh");
   SceneObject object{.name = mesh.text()};
   read_object_mesh(node, mesh, folder, meshes, object);
@@ -68,7 +77,37 @@ SceneObject read_object(const SceneNode& node, const std::filesystem::path& fold
       if (object.albedo[i] < 0.0 || object.albedo[i] > 1.0) albedo->fail("must lie between 0 and 1");
   }
   if (const auto casts = node.find("casts")) object.casts = casts->boolean();
+  if (const auto catcher = node.find("shadow_catcher")) object.shadow_catcher = catcher->boolean();
+  if (const auto fade = node.find("fade")) object.fade = read_fade(*fade);
   return object;
+}
+
+Background read_background(const SceneNode& node) {
+  try {
+    return parse_background(node.text());
+  } catch (const UsageError& e) {
+    node.fail(e.what());
+  }
+}
+
+int read_antialias(const SceneNode& node) {
+  const double samples = node.number();
+  if (!(samples >= 1.0 && samples <= kMostAntialias && samples == std::floor(samples)))
+    node.fail("is " + to_text(samples) + "; must be a whole number from 1 to " +
+              std::to_string(kMostAntialias));
+  return static_cast<int>(samples);
+}
+
+PictureSettings read_picture(const SceneNode& root) {
+  PictureSettings picture;
+  if (const auto ambient = root.find("ambient")) {
+    picture.ambient = ambient->number_or_vec3();
+    for (int i = 0; i < 3; ++i)
+      if (picture.ambient[i] < 0.0) ambient->fail("must not be negative");
+  }
+  if (const auto background = root.find("background")) picture.background = read_background(*background);
+  if (const auto antialias = root.find("antialias")) picture.antialias = read_antialias(*antialias);
+  return picture;
 }
 
 }  // namespace
@@ -77,7 +116,7 @@ LoadedScene read_scene(const nlohmann::json& document, const std::filesystem::pa
                        const std::string& name, const SceneOptions& options) {
   SceneNotes notes{.name = name, .strict = options.strict, .warnings = {}};
   const SceneNode root(document, nlohmann::json::json_pointer(), notes);
-  root.allow_only({"version", "lights", "camera", "objects"});
+  root.allow_only({"version", "lights", "camera", "objects", "ambient", "background", "antialias"});
   require_version_1(root);
 
   LoadedScene loaded;
@@ -85,11 +124,13 @@ LoadedScene read_scene(const nlohmann::json& document, const std::filesystem::pa
   scene.lights = read_lights(root);
   const auto camera = root.find("camera");
   if (camera) scene.camera = read_camera(*camera);
+  scene.picture = read_picture(root);
 
   const SceneNode objects = root.required("objects");
   MeshCache meshes;
   for (const SceneNode& node : objects.elements()) scene.objects.push_back(read_object(node, folder, meshes));
   if (scene.objects.empty()) objects.fail("is empty; add an object");
+  scene.files = meshes.files();
   if (!camera) scene.camera = camera_for(scene.bounds());
 
   if (const std::string complaint = out_of_range(scene); !complaint.empty())

@@ -75,7 +75,7 @@ void take_colors(const detail::MeshCache::Entry& entry, Scene& scene) {
 }
 
 LoadedScene scene_of(PolygonSoup soup, const std::string& name) {
-  const detail::MeshCache::Entry entry = detail::MeshCache::entry_of(std::move(soup));
+  detail::MeshCache::Entry entry = detail::MeshCache::entry_of(std::move(soup));
   TriangleMesh mesh;
   try {
     mesh = detail::place_mesh(entry, {});
@@ -85,6 +85,7 @@ LoadedScene scene_of(PolygonSoup soup, const std::string& name) {
   LoadedScene loaded{.scene = detail::scene_around(mesh, name), .warnings = {}};
   take_colors(entry, loaded.scene);
   detail::take_normals(entry, {}, loaded.scene.objects.back());
+  loaded.scene.files = std::move(entry.files);
   const std::string summary = detail::summary_of(entry, mesh.report());
   if (!summary.empty()) loaded.warnings.push_back(name + ": " + summary);
   return loaded;
@@ -93,8 +94,11 @@ LoadedScene scene_of(PolygonSoup soup, const std::string& name) {
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options) {
-  if (!is_scene_file(path)) return scene_of(read_polygon_soup(path), path.string());
-  return parse_scene(read_scene_text(path), path.parent_path(), path.string(), options);
+  LoadedScene loaded = is_scene_file(path)
+                           ? parse_scene(read_scene_text(path), path.parent_path(), path.string(), options)
+                           : scene_of(read_polygon_soup(path), path.string());
+  loaded.scene.files.insert(loaded.scene.files.begin(), path);
+  return loaded;
 }
 
 LoadedScene parse_scene_or_mesh(std::string_view bytes, const std::filesystem::path& folder,

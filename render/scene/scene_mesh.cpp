@@ -23,7 +23,15 @@ const MeshCache::Entry& MeshCache::get(const std::filesystem::path& path) {
   std::filesystem::path key = std::filesystem::weakly_canonical(path, error);
   if (error) key = path;
   if (const auto it = entries_.find(key); it != entries_.end()) return it->second;
-  return entries_.emplace(key, entry_of(read_polygon_soup(path))).first->second;
+  Entry& entry = entries_.emplace(key, entry_of(read_polygon_soup(path))).first->second;
+  entry.files.insert(entry.files.begin(), path);
+  return entry;
+}
+
+std::vector<std::filesystem::path> MeshCache::files() const {
+  std::vector<std::filesystem::path> all;
+  for (const auto& [key, entry] : entries_) all.insert(all.end(), entry.files.begin(), entry.files.end());
+  return all;
 }
 
 MeshCache::Entry MeshCache::entry_of(PolygonSoup soup) {
@@ -33,7 +41,8 @@ MeshCache::Entry MeshCache::entry_of(PolygonSoup soup) {
               .polygon_material = std::move(soup.polygon_material),
               .normals = std::move(soup.normals),
               .corner_normals = std::move(soup.corner_normals),
-              .ignored = std::move(soup.ignored)};
+              .ignored = std::move(soup.ignored),
+              .files = std::move(soup.material_paths)};
   entry.positions = std::move(soup.positions);
   return entry;
 }

@@ -23,11 +23,15 @@ class MeshCache {
     std::vector<Vec3> normals;
     std::vector<std::uint32_t> corner_normals;
     std::vector<std::string> ignored;
+    /// What was read: the mesh, unless it came from memory, and its files of materials.
+    std::vector<std::filesystem::path> files;
   };
   /// Of a file that was read already.
   static Entry entry_of(PolygonSoup soup);
   /// Reads the file the first time it is asked for. Throws MeshError.
   const Entry& get(const std::filesystem::path& path);
+  /// Of all entries.
+  std::vector<std::filesystem::path> files() const;
 
  private:
   std::map<std::filesystem::path, Entry> entries_;

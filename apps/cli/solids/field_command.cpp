@@ -47,6 +47,7 @@ void run(const Arguments& arguments) {
   require_writable(arguments.output);
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
+  require_apart({{"--output", arguments.output}}, scene.files);
   const std::size_t light = arguments.light.empty() ? 0 : scene.light_index(arguments.light);
   const Bounds box = solid_bound_for(scene);
   ProgressLine line("field");

@@ -113,7 +113,7 @@ class Writer {
     write_shadow_mesh(file, solid);
     say_written(arguments_.verbose, file);
     if (solid.triangles.empty())
-      complain("warning: " + file.string() +
+      complain("warning: " + shown_name(file) +
                " is empty: at this --tolerance no caster hides as much of the light as it asks for");
   }
 

@@ -80,7 +80,10 @@ std::string moved_path(const std::string& mesh, const std::filesystem::path& fro
 nlohmann::json floor_entry(const std::filesystem::path& path, const SceneObject& floor) {
   const std::string name = path.stem().string() + "-floor.ply";
   write_mesh(path.parent_path() / name, floor.mesh);
-  return {{"mesh", name}, {"albedo", to_json(floor.albedo)}, {"casts", floor.casts}};
+  return {{"mesh", name},
+          {"albedo", to_json(floor.albedo)},
+          {"casts", floor.casts},
+          {"fade", {floor.fade.from, floor.fade.to}}};
 }
 
 void write_distant(const Light& light, const DistantLight& distant, nlohmann::json& json) {
@@ -114,6 +117,7 @@ nlohmann::json scene_document(const std::filesystem::path& path, const State& st
   if (bare) {
     document["objects"].insert(document["objects"].begin(), floor_entry(path, state.model->objects.front()));
     document.erase("x-made-for");
+    document.erase("antialias");  // what is shown has one sample a pixel
   }
   // A light that was left alone keeps its numbers as they were written.
   for (std::size_t i = 0; i < state.lights.size(); ++i)

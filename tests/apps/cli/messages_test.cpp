@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
+#include <fstream>
 
 namespace penumbra::apps {
 namespace {
@@ -56,6 +58,19 @@ TEST(ProgressLine, ShowsAnEstimateOnATerminal) {
   EXPECT_NE(said.find("\rrendering "), std::string::npos) << said;
   EXPECT_NE(said.find(" s left"), std::string::npos) << said;
   EXPECT_TRUE(said.ends_with("\r\033[K")) << said;
+}
+
+// 21 MB, most of them a comment.
+TEST(ProgressLine, SaysWhatIsReadWhereThatIsMuch) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("penumbra-test-" + std::to_string(getpid()) + "-much.off");
+  const std::string mesh = "4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n";
+  std::ofstream(file) << "OFF\n#" << std::string(21'000'000, 'x') << "\n" << mesh;
+  const std::string said =
+      on_a_terminal({std::string(PENUMBRA_BIN) + "/penumbra", "classify", file.string()});
+  std::filesystem::remove(file);
+  EXPECT_EQ(said.find("\rreading " + file.string()), 0u) << said;
+  EXPECT_NE(said.find("\r\033[K"), std::string::npos) << "gone when it is read: " << said;
 }
 
 }  // namespace

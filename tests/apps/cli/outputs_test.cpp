@@ -57,6 +57,53 @@ TEST_F(OutputsTest, NeverReplaceAnInput) {
   EXPECT_EQ(files(), after);
 }
 
+// An OBJ's colors stand in a file of their own.
+TEST_F(OutputsTest, NeverReplaceMaterials) {
+  write("t.mtl", "newmtl red\nKd 1 0 0\n");
+  const std::string obj = write("t.obj", "mtllib t.mtl\nv 0 .1 0\nv 1 .1 0\nv 0 .1 1\nusemtl red\nf 1 2 3\n");
+  const std::string scene = write("obj.json", scene_text("t.obj"));
+  std::filesystem::create_symlink("t.mtl", file("link.ply"));
+  for (const Strings& words :
+       {Strings{"render", obj, "--size", "16x12", "--output", path("o.png"), "--stats", path("t.mtl")},
+        Strings{"render", scene, "--size", "16x12", "--output", path("o.png"), "--stats", path("t.mtl")},
+        Strings{"volumes", scene, "--penumbra", path("link.ply")},
+        Strings{"volumes", obj, "--check", "--report", path("t.mtl")},
+        Strings{"inspect", obj, "--repair", path("link.ply")}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
+    EXPECT_NE(outcome.err.find("would replace the input"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(read_text(file("t.mtl")), "newmtl red\nKd 1 0 0\n");
+}
+
+TEST_F(OutputsTest, VolumesGoToStandardOutput) {
+  ASSERT_EQ(run({"volumes", scene_, "--penumbra", path("p.ply"), "--umbra", path("u.ply")}).code, 0);
+  EXPECT_EQ(run({"volumes", scene_, "--penumbra", "-"}).out, read_text(file("p.ply")));
+  EXPECT_EQ(run({"volumes", scene_, "--umbra", "-", "--penumbra", path("q.ply")}).out,
+            read_text(file("u.ply")));
+  EXPECT_EQ(read_text(file("q.ply")), read_text(file("p.ply")));
+  ASSERT_EQ(
+      run({"volumes", scene_, "--form", "solid", "--tolerance", "20%", "--penumbra", path("s.ply")}).code, 0);
+  EXPECT_EQ(run({"volumes", scene_, "--form", "solid", "--tolerance", "20%", "--penumbra", "-"}).out,
+            read_text(file("s.ply")));
+  const std::string two =
+      write("two.json",
+            R"({"version":1,"lights":[{"shape":"disk","center":[0,4,0],"normal":[0,-1,0],"radius":1},
+    {"shape":"disk","center":[1,4,0],"normal":[0,-1,0],"radius":1}],"objects":[{"mesh":"t.off"}]})");
+  EXPECT_EQ(run({"volumes", two, "--penumbra", "-", "--light", "1"}).code, 0);
+  for (const Strings& words :
+       {Strings{"volumes", scene_, "--umbra", "-", "--penumbra", "-"},
+        Strings{"volumes", scene_, "--umbra", "-", "--report", "-"},
+        Strings{"volumes", scene_, "--umbra", "-", "--check"}, Strings{"volumes", two, "--umbra", "-"}}) {
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
+    EXPECT_NE(outcome.err.find("standard output"), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
 TEST_F(OutputsTest, DoNotReplaceEachOther) {
   std::filesystem::create_symlink("o.png", file("link.png"));
   for (const Strings& words :

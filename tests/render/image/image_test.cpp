@@ -138,6 +138,41 @@ TEST(Srgb, NothingSeenIsLightGray) {
   EXPECT_EQ(encode_srgb(one_pixel(1.0f, 0.0f, 0.0f, 0.0f)), (Bytes{230, 230, 230}));
 }
 
+Bytes over(const Image& image, const char* background) {
+  return encode_srgb(image, Display{.background = parse_background(background)});
+}
+
+TEST(Srgb, BackgroundsShowThroughByAlpha) {
+  EXPECT_EQ(over(one_pixel(0.0f, 0.0f, 0.0f, 0.0f), "#0a80ff"), (Bytes{10, 128, 255}));
+  EXPECT_EQ(over(one_pixel(0.0f, 0.5f, 1.0f, 1.0f), "#0a80ff"), (Bytes{0, 188, 255}));
+  // Black that covers 3/4 of white leaves 1/4 of linear light, 0.25 being 137 of sRGB; green covers as much.
+  EXPECT_EQ(over(one_pixel(0.0f, 0.75f, 0.0f, 0.75f), "white"), (Bytes{137, 255, 137}));
+  EXPECT_EQ(over(one_pixel(0.0f, 0.25f, 0.0f, 0.75f), "black"), (Bytes{0, 137, 0}));
+}
+
+// What is brighter than white covers no more of the background than its alpha says.
+TEST(Srgb, WhatIsSeenIsClippedBeforeItIsBlended) {
+  EXPECT_EQ(over(one_pixel(9.0f, 9.0f, 9.0f, 0.25f), "black"), (Bytes{137, 137, 137}));
+  EXPECT_EQ(encode_srgb(one_pixel(1.0f, 1.0f, 1.0f, 0.25f),
+                        Display{.exposure_stops = 5.0, .background = parse_background("black")}),
+            (Bytes{137, 137, 137}));
+}
+
+TEST(Srgb, TransparentBackgroundsLeaveAlpha) {
+  EXPECT_EQ(over(one_pixel(0.0f, 0.0f, 0.0f, 0.0f), "transparent"), (Bytes{0, 0, 0, 0}));
+  EXPECT_EQ(over(one_pixel(0.0f, 0.5f, 1.0f, 1.0f), "transparent"), (Bytes{0, 188, 255, 255}));
+  EXPECT_EQ(over(one_pixel(0.0f, 0.1f, 0.2f, 0.2f), "transparent"), (Bytes{0, 188, 255, 51}))
+      << "colors are not multiplied by it";
+}
+
+TEST_F(ImageTest, PngHasAlphaWhereTheBackgroundIsTransparent) {
+  write_png(path("a.png"), sample_image(), {.background = parse_background("transparent")});
+  write_png(path("b.png"), sample_image());
+  constexpr std::size_t kColorType = 25;
+  EXPECT_EQ(bytes_of(path("a.png"))[kColorType], 6) << "RGB with alpha";
+  EXPECT_EQ(bytes_of(path("b.png"))[kColorType], 2) << "RGB";
+}
+
 TEST_F(ImageTest, PngHasItsSignatureAndSize) {
   write_png(path("a.png"), sample_image());
   const std::string png = bytes_of(path("a.png"));

@@ -256,46 +256,6 @@ TEST_F(SceneTest, SceneWithoutACameraGetsOneThatLooksAtIt) {
   EXPECT_GT(glm::dot(sight, to_center), 0.98);
 }
 
-// Whether the camera sees a point, with some margin.
-bool sees(const Camera& camera, const Vec3& p, double aspect) {
-  const Vec3 forward = glm::normalize(camera.target - camera.eye);
-  const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
-  const Vec3 d = p - camera.eye;
-  const double depth = glm::dot(d, forward);
-  const double limit = depth * std::tan(camera.fov_y_degrees * 3.14159265358979 / 360) * 0.98;
-  return depth > 0 && std::abs(glm::dot(d, glm::cross(right, forward))) < limit &&
-         std::abs(glm::dot(d, right)) < limit * aspect;
-}
-
-TEST_F(SceneTest, BareMeshGetsFloorLightAndCameraInProportion) {
-  const Vec3 shapes[] = {{1, 1, 1}, {1, 0.01, 1}, {0.01, 1, 0.01}, {1, 0.2, 0.1}};
-  for (const double scale : {1e-3, 1.0, 1e6})
-    for (const Vec3& shape : shapes) {
-      std::string text = "OFF\n4 4 0\n";
-      for (const Vec3& p : {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
-        char line[128];
-        const Vec3 q = scale * (shape * p + Vec3(3, -2, 1));
-        std::snprintf(line, sizeof line, "%.17g %.17g %.17g\n", q.x, q.y, q.z);
-        text += line;
-      }
-      const Scene scene = load_scene(write("bare.off", text + "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")).scene;
-      ASSERT_EQ(scene.objects.size(), 2u);
-      EXPECT_FALSE(scene.objects[0].casts);
-      EXPECT_TRUE(scene.objects[1].casts);
-      const Bounds mesh = bounds_of(scene.objects[1].mesh.positions());
-      const Bounds floor = bounds_of(scene.objects[0].mesh.positions());
-      EXPECT_LT(floor.high.y, mesh.low.y);
-      EXPECT_GT(floor.high.y, mesh.low.y - 0.05 * mesh.radius());
-      EXPECT_LT(floor.low.x, mesh.low.x);
-      EXPECT_GT(floor.high.z, mesh.high.z);
-      EXPECT_GT(disk_of(scene).center.y, mesh.high.y + mesh.radius());
-      EXPECT_GT(disk_of(scene).radius, 0.0);
-      for (const Vec3& p : scene.objects[1].mesh.positions()) EXPECT_TRUE(sees(scene.camera, p, 4.0 / 3.0));
-      for (const Vec3& p : scene.objects[1].mesh.positions())
-        EXPECT_GT(glm::dot(p - disk_of(scene).center, disk_of(scene).normal), 0.0);
-    }
-}
-
 TEST_F(SceneTest, ScenesOfTheRepositoryLoadStrictly) {
   for (const auto& entry : fs::directory_iterator(PENUMBRA_DATA "/scenes")) {
     const std::string stem = entry.path().stem().string();

@@ -1,0 +1,72 @@
+#include "apps/common/picture_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "apps/common/messages.h"
+#include "penumbra/mesh/error.h"
+
+namespace penumbra::apps {
+namespace {
+
+constexpr double kMostAmbient = 1e6;
+
+// Not CLI::Range, which lets NaN through.
+std::string require_ambient(const std::string& text) {
+  double value = 0.0;
+  const bool good = CLI::detail::lexical_cast(text, value) && value >= 0.0 && value <= kMostAmbient;
+  return good ? "" : text + " is no radiance in [0 - 1000000]";
+}
+
+std::string require_background(const std::string& text) {
+  try {
+    parse_background(text);
+    return "";
+  } catch (const UsageError& e) {
+    return e.what();
+  }
+}
+
+}  // namespace
+
+void add_picture_options(CLI::App& command, PictureOptions& options) {
+  command
+      .add_option(
+          "--antialias", options.antialias,
+          "N: means over N x N samples a pixel, each a whole frame; other channels than R G B A stay those "
+          "of the pixel's center (1, of a bare mesh 2)")
+      ->check(CLI::Range(1, kMostAntialias))
+      ->type_name("N");
+  command
+      .add_option("--ambient", options.ambient,
+                  "Fill light for R G B: the radiance of a sky that nothing hides, 0 for none (0, of a bare "
+                  "mesh 0.14)")
+      ->check(require_ambient)
+      ->type_name("X");
+  command
+      .add_option_function<std::string>(
+          "--background",
+          [&options](const std::string& text) { options.background = parse_background(text); },
+          "What a PNG shows where no surface is seen: #rrggbb, white, black, or transparent for a PNG with "
+          "alpha "
+          "(#e6e6e6)")
+      ->check(require_background)
+      ->type_name("COLOR");
+  command.add_flag("--shadow-catcher", options.shadow_catcher,
+                   "Of objects that do not cast, such as floors, show only the shadow on them, by alpha");
+}
+
+void apply(const PictureOptions& options, Scene& scene) {
+  if (options.antialias) scene.picture.antialias = *options.antialias;
+  if (options.ambient) scene.picture.ambient = Vec3(*options.ambient);
+  if (options.background) scene.picture.background = *options.background;
+  if (!options.shadow_catcher) return;
+  bool any = false;
+  for (SceneObject& object : scene.objects) {
+    object.shadow_catcher = object.shadow_catcher || !object.casts;
+    any = any || object.shadow_catcher;
+  }
+  if (!any) say_ignored("--shadow-catcher", "all objects of the scene cast shadows");
+}
+
+}  // namespace penumbra::apps
