@@ -65,7 +65,7 @@ void draw_pointer_to_light(ImDrawList& list, const Vec3& center, const Projectio
   const ImVec2 side{-7.0f * unit.y, 7.0f * unit.x};
   list.AddTriangleFilled(tip, {tail.x + side.x, tail.y + side.y}, {tail.x - side.x, tail.y - side.y},
                          kYellow);
-  constexpr const char* kText = "light (Shift+Home)";
+  constexpr const char* kText = "light: Shift+Home shows it";
   const ImVec2 room_for_text = ImGui::CalcTextSize(kText);
   const float x = std::min(tail.x + 12.0f, size.x - room_for_text.x - 6.0f);
   list.AddRectFilled({x - 4.0f, tail.y - 8.0f}, {x + room_for_text.x + 4.0f, tail.y + room_for_text.y - 4.0f},

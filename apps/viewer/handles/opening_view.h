@@ -1,0 +1,15 @@
+// The camera with which a scene opens: where the file's own camera does not show the light, it is moved back.
+#pragma once
+
+#include "apps/viewer/handles/handled_light.h"
+#include "penumbra/render/scene/scene.h"
+
+namespace penumbra::viewer {
+
+/// The camera itself where it shows all of the light and its handles. Else, looking the same way, the nearest one from which casters, their shadow on
+/// the plane below them, and the light are seen. Where casters would be smaller than a sixth of the picture the camera stays: the
+/// light is too far away.
+Camera with_light_in_view(const Camera& camera, const Scene& scene, const HandledLight& light, int width,
+                          int height);
+
+}  // namespace penumbra::viewer
