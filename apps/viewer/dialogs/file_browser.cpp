@@ -98,6 +98,7 @@ std::optional<std::filesystem::path> FileBrowser::draw_buttons(Places& places) {
 std::optional<std::filesystem::path> FileBrowser::draw(Places& places) {
   if (!shown_) return std::nullopt;
   if (std::exchange(appears_, false)) ImGui::OpenPopup(kTitle);
+  const DialogStyle style;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowSize({std::min(0.7f * window.x, 44.0f * ImGui::GetFontSize()), 0.8f * window.y});
   ImGui::SetNextWindowPos({0.5f * window.x, 0.5f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});

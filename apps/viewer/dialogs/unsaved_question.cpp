@@ -19,6 +19,7 @@ void UnsavedQuestion::ask(const std::optional<std::filesystem::path>& then) {
 std::optional<UnsavedQuestion::Answer> UnsavedQuestion::draw(Places& places) {
   if (!shown_) return std::nullopt;
   if (std::exchange(appears_, false)) ImGui::OpenPopup(kTitle);
+  const DialogStyle style;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0.5f * window.x, 0.4f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(

@@ -32,11 +32,11 @@ std::vector<Vec3> points_of(const HandledLight& light, const Camera& camera, int
   return out;
 }
 
-// Where the box's shadow from the light's center falls on the plane through its lowest point, as far as the scene goes.
+// Where the box's shadow from the light's center falls on the plane through the scene's lowest point, as far as the scene goes.
 std::vector<Vec3> shadow_of(const Bounds& casters, const Bounds& scene, const Vec3& light, const Vec3& up) {
   double ground = INFINITY;
   const std::vector<Vec3> corners = corners_of(casters);
-  for (const Vec3& p : corners) ground = std::min(ground, glm::dot(p, up));
+  for (const Vec3& p : corners_of(scene)) ground = std::min(ground, glm::dot(p, up));
   std::vector<Vec3> out;
   for (const Vec3& p : corners) {
     const double above = glm::dot(p, up) - ground, fall = glm::dot(light - p, up);
@@ -91,6 +91,7 @@ Camera with_light_in_view(const Camera& camera, const Scene& scene, const Handle
   const std::vector<Vec3> shadow =
       shadow_of(casters, scene.bounds(), light.disk.center, glm::normalize(camera.up));
   fixed.insert(fixed.begin(), casters.center());
+  fixed.push_back(camera.target);
   fixed.insert(fixed.end(), shadow.begin(), shadow.end());
   Camera moved = camera;
   // Handles are as long in the picture wherever the camera is, and so in the scene the longer, the further away it is.

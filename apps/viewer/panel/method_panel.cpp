@@ -11,13 +11,6 @@
 namespace penumbra::viewer {
 namespace {
 
-std::string help_of(const OptionSchema& option, bool typed) {
-  std::string text =
-      option.help + ".\nAllowed: " + option.allowed() + ". Usual: " + to_text(option.usual) + ".";
-  if (typed) text += " Enter applies it.";
-  return text + "\nOn the command line: --" + option.name;
-}
-
 // One setting as a choice or a number; its schema decides whether a value is accepted.
 void setting_widget(RenderOptions& options, const OptionSchema& option, int& revision, Places& places) {
   const std::string label = words_of_option(option.name);
@@ -34,7 +27,8 @@ void setting_widget(RenderOptions& options, const OptionSchema& option, int& rev
     changed = chosen != at;
     value = choices[chosen];
   }
-  help_on_hover(help_of(option, choices.empty()));
+  help_on_hover(help_of(option) + (choices.empty() ? " Enter applies it." : "") +
+                "\nOn the command line: --" + option.name);
   if (!changed) return;
   try {
     set(options, option.name, value_from_shown(option, value));
@@ -63,8 +57,11 @@ void method_widgets(const char* label, RenderOptions& options, int& revision, Pl
   if (!method.options.empty()) {
     const bool open = ImGui::TreeNodeEx(heading.c_str(), ImGuiTreeNodeFlags_NoTreePushOnOpen);
     note_place(places, heading);
-    if (open)
+    if (open) {
+      ImGui::Indent(0.6f * ImGui::GetFontSize());
       for (const OptionSchema& option : method.options) setting_widget(options, option, revision, places);
+      ImGui::Unindent(0.6f * ImGui::GetFontSize());
+    }
   }
   ImGui::PopID();
 }

@@ -36,10 +36,10 @@ std::string picture_in_words(const Frame* frame, bool settled) {
   for (const Side& side : frame->sides)
     if (side.rays)
       text += ", " + with_commas(static_cast<std::size_t>(side.rays)) + " rays a pixel" +
-              (frame->refining ? " and more" : "");
+              (frame->refining ? ", refining" : "");
   if (!frame->error) return text;
   char error[96];
-  std::snprintf(error, sizeof error, ", error in the penumbra %.4f RMSE, at most %.3f", frame->error->rmse,
+  std::snprintf(error, sizeof error, "; error in the penumbra: %.4f RMSE, at most %.3f", frame->error->rmse,
                 frame->error->max_absolute);
   return text + error;
 }

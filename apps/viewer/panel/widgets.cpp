@@ -9,8 +9,12 @@ void note_place(Places& places, const std::string& name) {
 
 void help_on_hover(const std::string& text) {
   if (!ImGui::IsItemHovered() || text.empty()) return;
+  // Beside the window, so that it hides no other widget.
+  const float font = ImGui::GetFontSize(), left = ImGui::GetWindowPos().x;
+  if (left > 23.0f * font)
+    ImGui::SetNextWindowPos({left - 0.4f * font, ImGui::GetItemRectMin().y}, ImGuiCond_Always, {1.0f, 0.0f});
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(21.0f * ImGui::GetFontSize());
+  ImGui::PushTextWrapPos(21.0f * font);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
@@ -19,7 +23,7 @@ void help_on_hover(const std::string& text) {
 void label_of_next(const char* label) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
-  ImGui::SameLine(7.6f * ImGui::GetFontSize());
+  ImGui::SameLine(8.1f * ImGui::GetFontSize());
   ImGui::SetNextItemWidth(-1.0f);
 }
 
@@ -64,6 +68,18 @@ bool button(Places& places, const char* label) {
   const bool pressed = ImGui::Button(label);
   note_place(places, label);
   return pressed;
+}
+
+DialogStyle::DialogStyle() {
+  const float font = ImGui::GetFontSize();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {1.0f * font, 0.9f * font});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.8f * font, 0.35f * font});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.6f * font, 0.5f * font});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+}
+
+DialogStyle::~DialogStyle() {
+  ImGui::PopStyleVar(4);
 }
 
 }  // namespace penumbra::viewer

@@ -32,4 +32,13 @@ bool radio_line(Places& places, int& chosen, const std::vector<const char*>& tex
                 const std::vector<const char*>& help = {});
 bool button(Places& places, const char* label);
 
+/// Roomier paddings and a border, for dialogs, while it lives.
+class DialogStyle {
+ public:
+  DialogStyle();
+  ~DialogStyle();
+  DialogStyle(const DialogStyle&) = delete;
+  DialogStyle& operator=(const DialogStyle&) = delete;
+};
+
 }  // namespace penumbra::viewer

@@ -13,7 +13,7 @@ using Words = std::pair<const char*, const char*>;
 constexpr Words kMethods[] = {{"silhouette", "Silhouette"},
                               {"dbuffer", "D-buffer"},
                               {"occlusion-textures", "Occlusion textures"},
-                              {"reference", "Reference rays"},
+                              {"reference", "Reference"},
                               {"rays", "Rays where uncertain"},
                               {"hard", "Hard shadow"},
                               {"none", "No shadow"}};
@@ -27,7 +27,7 @@ constexpr Words kOptions[] = {{"silhouette-rows", "Scanlines"},
                               {"conflict", "Of several, keep"},
                               {"dbuffer-center", "Center hidden by"},
                               {"dbuffer-check", "Check by rays"},
-                              {"gl", "OpenGL by"},
+                              {"backend", "OpenGL by"},
                               {"samples", "Rays a pixel"},
                               {"seed", "Seed"},
                               {"texture-size", "Texture size"},
@@ -67,6 +67,18 @@ std::string words_of_option(const std::string& name) {
 
 std::string shown_value(const OptionSchema& option, const std::string& value) {
   return value == "0" && zero_is_auto(option) ? "auto" : value;
+}
+
+std::string help_of(const OptionSchema& option) {
+  std::string text =
+      option.help + ".\nAllowed: " + option.allowed() + ". Usual: " + to_text(option.usual) + ".";
+  if (!zero_is_auto(option)) return text;
+  for (const auto& [zero, word] : {std::pair("; 0: ", "; auto: "),
+                                   {"Allowed: 0 or ", "Allowed: auto or "},
+                                   {"Usual: 0.", "Usual: auto."}})
+    if (const std::size_t at = text.find(zero); at != std::string::npos)
+      text.replace(at, std::string_view(zero).size(), word);
+  return text;
 }
 
 std::string value_from_shown(const OptionSchema& option, const std::string& shown) {

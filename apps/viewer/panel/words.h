@@ -16,6 +16,8 @@ std::string words_of_option(const std::string& name);
 std::string shown_value(const OptionSchema& option, const std::string& value);
 /// And back.
 std::string value_from_shown(const OptionSchema& option, const std::string& shown);
+/// What it decides, what is allowed and what is usual, in the same words.
+std::string help_of(const OptionSchema& option);
 
 /// "1,234,567"
 std::string with_commas(std::size_t number);

@@ -75,11 +75,12 @@ void PictureView::update(const State& state, std::shared_ptr<const Frame> frame)
   scale_ = state.difference_scale;
   shown_ = state.shown;
   if (!frame_ || frame_->sides.empty()) return;
-  left_.upload(picture_of(*frame_, frame_->sides.front(), shown_, exposure_));
+  const bool draft = frame_->reduction > 1;
+  left_.upload(picture_of(*frame_, frame_->sides.front(), shown_, exposure_), draft);
   textures_.upload(mosaic_of(textures_of(*frame_), kTextureSide));
   if (frame_->sides.size() < 2) return;
-  right_.upload(picture_of(*frame_, frame_->sides.back(), shown_, exposure_));
-  difference_.upload(difference_of(*frame_, scale_));
+  right_.upload(picture_of(*frame_, frame_->sides.back(), shown_, exposure_), draft);
+  difference_.upload(difference_of(*frame_, scale_), draft);
 }
 
 void PictureView::draw_picture(const State& state) const {
@@ -140,7 +141,7 @@ void PictureView::draw_titles(ImDrawList& list, const State& state, const Marks&
   if (!two) return label(list, {12, 10}, left + ", " + pace);
   if (state.arrangement == Arrangement::kDifference)
     return label(list, {12, 10}, left + " minus " + right + ": blue too dark, red too bright; " + pace);
-  label(list, {12, 10}, left + ", together " + pace);
+  label(list, {12, 10}, left + ", both " + pace);
   label(list, {static_cast<float>(state.left.width) - ImGui::CalcTextSize(right.c_str()).x - 12, 10}, right);
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 
 #include "apps/viewer/panel/words.h"
 #include "apps/viewer/pictures/disk_view.h"
@@ -89,7 +90,7 @@ void ProbeView::draw(const State& state, const Frame* frame, const Pointer& poin
 void ProbeView::write(const State& state, const Frame& frame) const {
   if (!place_) return ImGui::TextUnformatted("no surface here");
   const auto& object = state.model->objects[static_cast<std::size_t>(place_->object)];
-  ImGui::Text("%s, face %u", object.name.c_str(), place_->face);
+  ImGui::Text("%s, face %u", std::filesystem::path(object.name).filename().c_str(), place_->face);
   ImGui::Text("at %.3f %.3f %.3f", place_->position.x, place_->position.y, place_->position.z);
   ImGui::TextDisabled("the part of the light that it sees");
   for (const Side& side : frame.sides)

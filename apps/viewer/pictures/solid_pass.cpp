@@ -37,7 +37,7 @@ void main() {
   if (along > cut) discard;
   float facing = abs(dot(normalize(across), normalize(eye - place)));
   float edge = pow(1.0 - facing, 2.5);
-  float density = mix(mix(0.10, 0.62, edge), 0.60, flatness);
+  float density = mix(mix(0.13, 0.65, edge), 0.60, flatness);
   color = vec4(tint * mix(mix(0.80, 1.0, facing), 1.0, flatness), strength * density);
 }
 )";
@@ -108,7 +108,7 @@ void SolidPass::draw_surface(const Glass& glass, GLenum culled) const {
 
 // What is left of a closed surface shows as many front faces as back faces along a line, unless the line crosses the cut inside of it:
 // the stencil counts the difference, and the square is drawn where it is not 0.
-void SolidPass::draw_section(const Glass& glass) const {
+void SolidPass::draw_section(const Glass& glass, float cut) const {
   gl_.Enable(GL_STENCIL_TEST);
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
   gl_.Disable(GL_DEPTH_TEST);
@@ -123,8 +123,10 @@ void SolidPass::draw_section(const Glass& glass) const {
   gl_.StencilOpSeparate(GL_FRONT_AND_BACK, GL_KEEP, GL_KEEP, GL_KEEP);
   gl_.Uniform1f(program_.uniform("flatness"), 1.0f);
   set_tint(glass.color);
+  gl_.Uniform1f(program_.uniform("cut"), 3e38f);  // the square lies in the cut
   gl_.BindVertexArray(section_.array);
   gl_.DrawArrays(GL_TRIANGLES, 0, 6);
+  gl_.Uniform1f(program_.uniform("cut"), cut);
   gl_.Uniform1f(program_.uniform("flatness"), 0.0f);
   const GLint nothing = 0;
   gl_.ClearBufferiv(GL_STENCIL, 0, &nothing);
@@ -167,7 +169,7 @@ void SolidPass::draw(const State& state, const OverlayGeometry& g, const Viewpor
   const bool section_in_front = cut.cuts && glm::dot(cut.axis, camera.eye) > cut.most;
   const auto sections = [&] {
     for (const Glass* each : {&penumbra, &umbra})
-      if (each->shown) draw_section(*each);
+      if (each->shown) draw_section(*each, static_cast<float>(cut.most));
   };
   if (cut.cuts && !section_in_front) sections();
   if (penumbra.shown) draw_surface(penumbra, GL_FRONT);

@@ -36,7 +36,7 @@ class SolidPass {
   void upload(const List& list, const std::vector<SolidVertex>& vertices) const;
   void set_tint(const OverlayColor& color) const;
   void draw_surface(const Glass& glass, GLenum culled) const;
-  void draw_section(const Glass& glass) const;
+  void draw_section(const Glass& glass, float cut) const;
   void set_section(const Cut& cut, const Vec3& origin, double bound) const;
 
   const gl::Functions& gl_;

@@ -40,7 +40,7 @@ struct Overlays {
   bool umbra_solid = false;
   bool textures = false;  ///< what the D-buffer or the occlusion textures hold
   /// Detail to which solids are refined, in parts of the casters' diagonal.
-  double detail = 0.01;
+  double detail = 0.02;
   /// Sheets, volumes and solids are drawn up to this part of the way: from the light's plane, or from the scene's first point
   /// where the light is far away, to the scene's far end; or along an axis through everything.
   double cut = 1.0;

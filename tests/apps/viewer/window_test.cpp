@@ -38,7 +38,8 @@ TEST_F(WindowTest, StartsOnSceneAndMeshes) {
 }
 
 TEST_F(WindowTest, OverlaysAndProbeAreDrawn) {
-  for (const char* overlay : {"faces", "silhouettes", "band", "sheets", "penumbra", "umbra", "textures"}) {
+  for (const char* overlay : {"faces", "silhouettes", "band", "sheets", "penumbra", "umbra", "penumbra-solid",
+                              "umbra-solid", "textures"}) {
     Child plain = start({kCube, "--size", "320x200", "--plain", "--screenshot", path("plain.png")});
     ASSERT_EQ(plain.wait(), 0) << read_text(file("errors"));
     Child window =
