@@ -20,9 +20,15 @@ class WorkTest : public WindowTest {
         std::chrono::milliseconds(100));  // ImGui opens nothing that the mouse jumped to
     tool("click 1");
   }
+  /// A dialog has its place from its second frame on: it is clicked where two looks agree.
   void click_widget(const std::string& name) {
+    Json last;
     const Json now = until("the widget " + name, [&](const Json& s) {
-      return s.contains("widgets") && s["widgets"].contains(name);
+      if (!s.contains("widgets") || !s["widgets"].contains(name)) return false;
+      const bool rests = s["widgets"][name] == last;
+      last = s["widgets"][name];
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      return rests;
     });
     click(now["widgets"][name]);
   }
