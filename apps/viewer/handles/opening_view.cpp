@@ -95,7 +95,7 @@ Camera with_light_in_view(const Camera& camera, const Scene& scene, const Handle
   fixed.insert(fixed.end(), shadow.begin(), shadow.end());
   Camera moved = camera;
   // Handles are as long in the picture wherever the camera is, and so in the scene the longer, the further away it is.
-  for (int round = 0; round < 3; ++round) {
+  for (int round = 0; round < 8; ++round) {
     std::vector<Vec3> points = fixed;
     const std::vector<Vec3> more = points_of(light, moved, width, height);
     points.insert(points.end(), more.begin(), more.end());

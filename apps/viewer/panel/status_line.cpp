@@ -39,7 +39,7 @@ std::string picture_in_words(const Frame* frame, bool settled) {
               (frame->refining ? ", refining" : "");
   if (!frame->error) return text;
   char error[96];
-  std::snprintf(error, sizeof error, "; error in the penumbra: %.4f RMSE, at most %.3f", frame->error->rmse,
+  std::snprintf(error, sizeof error, "; error in the penumbra: %.2g RMSE, at most %.3f", frame->error->rmse,
                 frame->error->max_absolute);
   return text + error;
 }

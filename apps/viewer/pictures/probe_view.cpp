@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
@@ -75,7 +76,10 @@ void ProbeView::draw(const State& state, const Frame* frame, const Pointer& poin
     place_ = Place{*pixel, s.object[*pixel], s.face[*pixel], s.position[*pixel], s.normal[*pixel]};
     ask(state, *frame);
   }
-  ImGui::SetNextWindowPos({12.0f, 3.2f * ImGui::GetFontSize()}, ImGuiCond_FirstUseEver);
+  // At the upper right: the legend is at the lower left.
+  const float font = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({std::max(font, static_cast<float>(state.left.width) - 15.0f * font), 3.2f * font},
+                          ImGuiCond_FirstUseEver);
   ImGui::Begin("Probe", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);

@@ -12,6 +12,8 @@
 namespace penumbra::viewer {
 namespace {
 
+constexpr double kLongestToFollow = 0.3;  // seconds: drafts of the picture need the processor, too
+
 LightShape circular_shape(const State& state) {
   if (std::holds_alternative<RectangleLight>(state.shape())) return disk_around(state.shape());
   return state.shape();
@@ -56,7 +58,7 @@ std::vector<double> SolidMaker::missing(const State& state, bool moving) const {
                     (shown_->penumbra || !state.overlays.penumbra_solid);
   if (shown_ && !outdated(state) && !shown_->trouble.empty()) return {};
   if (fits) std::erase_if(details, [&](double each) { return each >= shown_->detail; });
-  if (moving) details.resize(fits ? 0 : 1);
+  if (moving) details.resize(fits || coarsest_took_ > kLongestToFollow ? 0 : 1);
   return details;
 }
 
@@ -115,6 +117,7 @@ std::shared_ptr<const Solids> SolidMaker::make(const Task& task, double detail) 
   made->light = task.light;
   made->detail = detail_ = detail;
   task.at_coarsest = detail == kCoarsest;
+  const auto start = std::chrono::steady_clock::now();
   const Bounds casters = task.model->caster_bounds();
   made->origin = casters.center();
   SolidOptions options{.tolerance = 2.0 * detail * casters.radius(),
@@ -138,6 +141,8 @@ std::shared_ptr<const Solids> SolidMaker::make(const Task& task, double detail) 
   } catch (const std::exception& e) {
     made->trouble = e.what();
   }
+  if (detail == kCoarsest)
+    coarsest_took_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return made;
 }
 

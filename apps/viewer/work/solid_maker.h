@@ -1,5 +1,6 @@
 // Umbra and penumbra solids in the background: coarse ones first, then finer ones up to the detail that is wanted. What is under way for
-// a light that has moved is given up; only the coarsest is made to its end, so that something is there while the light moves.
+// a light that has moved is given up; only the coarsest is made to its end, so that something is there while the light moves. Where that
+// takes too long to follow a hand, nothing is made until the light is still.
 #pragma once
 
 #include <atomic>
@@ -55,6 +56,7 @@ class SolidMaker {
   std::future<void> task_;
   std::shared_ptr<Task> current_;
   std::atomic<double> fraction_{0.0}, detail_{0.0};
+  std::atomic<double> coarsest_took_{0.0};  ///< seconds, the last time
   std::shared_ptr<const Solids> shown_;
 
   std::mutex mutex_;  ///< for what follows

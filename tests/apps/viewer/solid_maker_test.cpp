@@ -68,9 +68,10 @@ TEST(SolidMaker, ComesCoarseFirstThenFinerOnes) {
   EXPECT_EQ(maker.update(state, false), nullptr);
 }
 
+// A cube takes milliseconds, so that it follows a hand.
 TEST(SolidMaker, WhileTheLightMovesOnlyTheCoarsestIsMade) {
   SolidMaker maker(wake_nobody);
-  State state = torus();
+  State state = cube();
   EXPECT_EQ(details_shown(maker, state, true), std::vector<double>{0.1});
   HandledLight light = state.handled();
   light.disk.center.x += 0.5;

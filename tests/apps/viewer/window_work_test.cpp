@@ -1,4 +1,6 @@
 // The real window under Xvfb: opening, undoing, leaving, and solids.
+#include <stb_image.h>
+
 #include <fstream>
 
 #include "tests/apps/viewer/window_driver.h"
@@ -210,6 +212,37 @@ TEST_F(WorkTest, SolidsAreRefinedAsTheyCome) {
   });
   move_light();
   until("those of the other light", [](const Json& s) { return s["solid_detail"] == 0.02; });
+}
+
+/// Pixels of the picture that are strongly orange.
+int orange_pixels(const std::filesystem::path& path, int columns) {
+  int width = 0, height = 0, channels = 0, count = 0;
+  unsigned char* pixels = stbi_load(path.c_str(), &width, &height, &channels, 3);
+  if (!pixels) return -1;
+  for (int i = 0; i < width * height; ++i)
+    if (i % width < columns && pixels[3 * i] > pixels[3 * i + 2] + 90) ++count;
+  stbi_image_free(pixels);
+  return count;
+}
+
+TEST_F(WorkTest, TheSectionOfACutSolidIsFilled) {
+  int orange[2] = {};
+  for (const bool cut : {false, true}) {
+    Json document = Json::parse(read_text(kCube));
+    for (Json& object : document["objects"])
+      object["mesh"] = std::string(PENUMBRA_DATA "/scenes/") + object["mesh"].get<std::string>();
+    document["x-viewer"] = {{"left", {{"method", "silhouette"}}},
+                            {"right", {{"method", "reference"}}},
+                            {"overlays", {{"penumbra-solid", true}}},
+                            {"cut", cut ? 0.5 : 1.0},
+                            {"cut_axis", "z"}};
+    std::ofstream(file("s.json")) << document;
+    Child window = start({path("s.json"), "--size", "400x300", "--screenshot", path("w.png")});
+    ASSERT_EQ(window.wait(), 0) << read_text(file("errors"));
+    orange[cut] = orange_pixels(file("w.png"), 400);
+  }
+  // The section through the axis covers about as much as half of the silhouette's; glass is strong at its rim only.
+  EXPECT_GT(orange[1], orange[0] + 3000) << orange[0];
 }
 
 TEST_F(WorkTest, TheSizeOfTheFontIsThatOfEverything) {
