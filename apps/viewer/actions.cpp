@@ -2,7 +2,6 @@
 
 #include <imgui.h>
 
-#include <algorithm>
 #include <cstdio>
 
 #include "apps/viewer/state/state_file.h"
@@ -45,27 +44,20 @@ std::string copy_command(const ActionInput& input) {
 
 }  // namespace
 
-std::string next_method(const std::string& method, int step) {
-  const std::deque<MethodInfo>& all = methods();
-  const auto count = static_cast<std::ptrdiff_t>(all.size());
-  const auto at = std::ranges::find(all, method, &MethodInfo::name) - all.begin();
-  return all[static_cast<std::size_t>((at + step + count) % count)].name;
-}
-
-std::string perform(Command command, const ActionInput& input) {
+ActionResult perform(Command command, const ActionInput& input) {
   try {
     switch (command) {
       case Command::kSavePicture:
-        return save_picture(input);
+        return {save_picture(input)};
       case Command::kSaveState:
-        return "saved " + save_state_file(input).string();
+        return {"saved " + save_state_file(input).string(), true};
       case Command::kCopyCommand:
-        return copy_command(input);
+        return {copy_command(input), true};
       default:
         return {};
     }
   } catch (const std::exception& e) {
-    return e.what();
+    return {e.what()};
   }
 }
 

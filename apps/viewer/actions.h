@@ -1,4 +1,4 @@
-// What writes a picture or a state at a key press. Each returns a line to show.
+// What writes a picture or a state at a key press.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,17 @@
 
 namespace penumbra::viewer {
 
-/// The method `step` places further in the list, around its end.
-std::string next_method(const std::string& method, int step);
-
 struct ActionInput {
   const State& state;
   const Frame* frame;  ///< what is shown; may be null
   bool settled;        ///< and whether it is the full picture
   std::filesystem::path folder;
 };
-/// Never throws for what can go wrong outside: the line says it.
-std::string perform(Command command, const ActionInput& input);
+struct ActionResult {
+  std::string message;  ///< a line to show
+  bool saved_state = false;
+};
+/// Never throws for what can go wrong outside: the message says it.
+ActionResult perform(Command command, const ActionInput& input);
 
 }  // namespace penumbra::viewer

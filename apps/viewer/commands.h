@@ -1,4 +1,4 @@
-// What the viewer can be told by a key, in one table: keys, help and panel buttons are made from it.
+// What the viewer can be told by a key, in one table: keys, menus and help are made from it.
 #pragma once
 
 #include <span>
@@ -6,44 +6,54 @@
 namespace penumbra::viewer {
 
 enum class Command {
-  kViewFront,
-  kViewRight,
-  kViewTop,
-  kFrameAll,
-  kFrameLight,
-  kReset,
-  kNextMethod,
-  kPreviousMethod,
-  kSingle,
-  kSplit,
-  kDifference,
-  kLightHandles,
-  kFaces,
-  kSilhouettes,
-  kBand,
-  kSheets,
-  kPenumbraVolume,
-  kUmbraVolume,
-  kProbe,
-  kPanel,
+  kOpen,
+  kNextFile,
+  kPreviousFile,
   kSavePicture,
   kSaveState,
   kCopyCommand,
   kExportVolumes,
   kExportSequence,
-  kNextFile,
-  kPreviousFile,
-  kHelp,
   kLeave,
+  kUndo,
+  kRedo,
+  kReset,
+  kViewFront,
+  kViewRight,
+  kViewTop,
+  kFrameAll,
+  kFrameLight,
+  kPanel,
+  kSingle,
+  kSplit,
+  kDifference,
+  kNextMethod,
+  kPreviousMethod,
+  kLightHandles,
+  kUmbraSolid,
+  kPenumbraSolid,
+  kSilhouettes,
+  kBand,
+  kFaces,
+  kSheets,
+  kUmbraCells,
+  kPenumbraCells,
+  kProbe,
+  kHelp,
 };
+
+/// The menu that has the command. Overlays have check boxes instead.
+enum class Menu { kFile, kEdit, kView, kPicture, kOverlay, kHelp };
 
 struct CommandKey {
   Command command;
+  Menu menu;
   int key;  ///< GLFW's number
   bool shift, control;
   const char* shown;  ///< the key's name
-  const char* help;
+  const char* label;  ///< what it does
 };
+/// A command may have several keys: the first one is the one to show.
 std::span<const CommandKey> command_keys();
 const CommandKey& key_of(Command command);
 

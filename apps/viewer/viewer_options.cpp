@@ -8,7 +8,7 @@
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
 #include "apps/common/parse_errors.h"
-#include "apps/viewer/viewer.h"
+#include "apps/viewer/show.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
@@ -20,6 +20,7 @@ constexpr const char* kDescription =
 constexpr const char* kFooter = R"(A SCENE is a scene file (*.json) or a bare mesh (OBJ, PLY, OFF, STL).
 
 Examples:
+  penumbra-viewer
   penumbra-viewer bunny.ply
   penumbra-viewer scene.json --method reference --samples 64
   xvfb-run penumbra-viewer scene.json --screenshot window.png
@@ -31,16 +32,20 @@ struct Words {
   std::vector<std::string> overlays;
 };
 
+std::string overlay_words() {
+  std::string words;
+  for (std::size_t i = 0; i < kOverlayFlags.size(); ++i)
+    words += (i == 0                          ? ""
+              : i + 1 == kOverlayFlags.size() ? " or "
+                                              : ", ") +
+             std::string(kOverlayFlags[i].first);
+  return words;
+}
+
 bool& overlay_of(const std::string& word, Overlays& overlays) {
-  if (word == "faces") return overlays.faces;
-  if (word == "silhouettes") return overlays.silhouettes;
-  if (word == "band") return overlays.band;
-  if (word == "sheets") return overlays.sheets;
-  if (word == "penumbra") return overlays.penumbra;
-  if (word == "umbra") return overlays.umbra;
-  if (word == "textures") return overlays.textures;
-  throw UsageError("unknown overlay '" + word +
-                   "': use faces, silhouettes, band, sheets, penumbra, umbra or textures");
+  for (const auto& [name, flag] : kOverlayFlags)
+    if (word == name) return overlays.*flag;
+  throw UsageError("unknown overlay '" + word + "': use " + overlay_words());
 }
 
 Arrangement arrangement_of(const std::string& word) {
@@ -58,8 +63,8 @@ Shown shown_of(const std::string& word) {
 }
 
 void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
-  app.add_option("SCENE", options.files, "Scene files or meshes; PgUp and PgDn change between them")
-      ->required();
+  app.add_option("SCENE", options.files,
+                 "Scene files or meshes; PgUp and PgDn change between them; none: the window asks for one");
   app.add_option("--size", words.size, "Pixels of the picture, WIDTHxHEIGHT; the panel is beside it")
       ->type_name("WxH");
   app.add_option("-m,--method", words.method, "How visibility is computed: " + apps::method_words())
@@ -71,10 +76,11 @@ void add_options(CLI::App& app, ViewerOptions& options, Words& words) {
   app.add_option("--show", words.shown, "picture, visibility or certified (methods silhouette and rays)")
       ->capture_default_str();
   app.add_flag("--plain", options.plain, "Nothing but the picture: no panel, no handles");
-  app.add_option("--overlay", words.overlays,
-                 "faces, silhouettes, band, sheets, penumbra, umbra or textures; may be repeated")
-      ->take_all()
-      ->expected(1);
+  app.add_option("--overlay", words.overlays, overlay_words() + "; may be repeated")->take_all()->expected(1);
+  app.add_option("--font-size", options.font_size,
+                 "Pixels of the window's font, which all else follows; 15 at scale 1")
+      ->check(CLI::Range(8.0, 64.0))
+      ->type_name("PX");
   app.add_flag("--probe", options.state.probe, "Start with the probe");
   app.add_option("--screenshot", options.screenshot,
                  "Write the window as PNG once the picture is final, and leave")
@@ -112,6 +118,7 @@ void check(ViewerOptions& options, const Words& words, bool method_given, bool v
     apps::require_writable(options.screenshot);
   }
   apps::require_writable(options.status);
+  if (options.random_input && options.files.empty()) throw UsageError("--random-input needs a file");
   if (!std::filesystem::is_directory(options.output))
     throw SystemError("--output " + options.output.string() + ": is no folder; create it");
 }

@@ -12,12 +12,13 @@
 namespace penumbra::viewer {
 
 struct ViewerOptions {
-  std::vector<std::filesystem::path> files;
-  int width = 960, height = 600;      ///< of the picture; the panel is beside it
-  State state;                        ///< methods and settings to start with
-  std::optional<std::string> method;  ///< where given, instead of what a saved state says
+  std::vector<std::filesystem::path> files;  ///< none: the window asks for one
+  int width = 960, height = 680;             ///< of the picture; the panel is beside it
+  State state;                               ///< methods and settings to start with
+  std::optional<std::string> method;         ///< where given, instead of what a saved state says
   std::optional<Arrangement> view;
-  bool plain = false;  ///< neither panel nor handles
+  bool plain = false;      ///< nothing but the picture
+  double font_size = 0.0;  ///< pixels; 0: as the display asks for
   std::filesystem::path screenshot;
   int frames = 1;                             ///< window frames before the screenshot
   std::filesystem::path status;               ///< written whenever what it says changes

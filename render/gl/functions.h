@@ -22,6 +22,7 @@ using ProcLoader = void* (*)(const char* name);
   X(BufferData, PFNGLBUFFERDATAPROC)                           \
   X(CheckFramebufferStatus, PFNGLCHECKFRAMEBUFFERSTATUSPROC)   \
   X(ClearBufferfv, PFNGLCLEARBUFFERFVPROC)                     \
+  X(ClearBufferiv, PFNGLCLEARBUFFERIVPROC)                     \
   X(ClearBufferuiv, PFNGLCLEARBUFFERUIVPROC)                   \
   X(ClipControl, PFNGLCLIPCONTROLPROC)                         \
   X(ColorMask, PFNGLCOLORMASKPROC)                             \
@@ -67,6 +68,8 @@ using ProcLoader = void* (*)(const char* name);
   X(ReadBuffer, PFNGLREADBUFFERPROC)                           \
   X(ReadPixels, PFNGLREADPIXELSPROC)                           \
   X(ShaderSource, PFNGLSHADERSOURCEPROC)                       \
+  X(StencilFunc, PFNGLSTENCILFUNCPROC)                         \
+  X(StencilOpSeparate, PFNGLSTENCILOPSEPARATEPROC)             \
   X(TexBuffer, PFNGLTEXBUFFERPROC)                             \
   X(TexImage2D, PFNGLTEXIMAGE2DPROC)                           \
   X(TexParameteri, PFNGLTEXPARAMETERIPROC)                     \

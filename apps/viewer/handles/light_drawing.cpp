@@ -28,6 +28,19 @@ class Pen {
     list_.AddLine(place(*from), place(*to), kOutline, width + 2.0f);
     list_.AddLine(place(*from), place(*to), color, width);
   }
+  // Nothing where part of it is not in front of the eye.
+  void disk(const std::vector<Vec3>& rim, ImU32 color, float width) const {
+    std::vector<ImVec2> corners;
+    for (const Vec3& p : rim) {
+      const auto at = projection_.project(p);
+      if (!at) return;
+      corners.push_back(place(*at));
+    }
+    const int count = static_cast<int>(corners.size());
+    list_.AddConvexPolyFilled(corners.data(), count, IM_COL32(255, 224, 120, 70));
+    list_.AddPolyline(corners.data(), count, kOutline, ImDrawFlags_Closed, width + 2.0f);
+    list_.AddPolyline(corners.data(), count, color, ImDrawFlags_Closed, width);
+  }
   void knob(const Vec3& p, ImU32 color, float radius) const {
     const auto at = projection_.project(p);
     if (!at) return;
@@ -65,7 +78,7 @@ void draw_pointer_to_light(ImDrawList& list, const Vec3& center, const Projectio
   const ImVec2 side{-7.0f * unit.y, 7.0f * unit.x};
   list.AddTriangleFilled(tip, {tail.x + side.x, tail.y + side.y}, {tail.x - side.x, tail.y - side.y},
                          kYellow);
-  constexpr const char* kText = "light (Shift+Home)";
+  constexpr const char* kText = "light: Shift+Home shows it";
   const ImVec2 room_for_text = ImGui::CalcTextSize(kText);
   const float x = std::min(tail.x + 12.0f, size.x - room_for_text.x - 6.0f);
   list.AddRectFilled({x - 4.0f, tail.y - 8.0f}, {x + room_for_text.x + 4.0f, tail.y + room_for_text.y - 4.0f},
@@ -82,9 +95,7 @@ void draw_light(ImDrawList& list, const HandledLight& light, const Projection& p
   const Pen pen(list, projection);
   const auto color = [&](Handle handle, ImU32 usual) { return handle == marked ? kMarked : usual; };
   const auto width = [&](Handle handle) { return handle == marked ? 3.0f : 2.0f; };
-  for (std::size_t i = 0; i < shape.rim.size(); ++i)
-    pen.line(shape.rim[i], shape.rim[(i + 1) % shape.rim.size()], color(Handle::kRim, kYellow),
-             width(Handle::kRim));
+  pen.disk(shape.rim, color(Handle::kRim, kYellow), width(Handle::kRim));
   for (std::size_t k = 0; k < shape.axis_tips.size(); ++k) {
     const ImU32 axis = color(kAxisHandles[k], kAxisColors[k]);
     pen.line(shape.center, shape.axis_tips[k], axis, width(kAxisHandles[k]));

@@ -121,9 +121,10 @@ Handle pick(const HandleShape& shape, const Projection& projection, const Pictur
 }
 
 HandleDrag::HandleDrag(Handle handle, const HandledLight& light, const Projection& projection,
-                       const PicturePoint& start)
+                       const PicturePoint& start, const std::optional<Vec3>& aim)
     : handle_(handle),
       start_(light),
+      aim_(light.middle ? std::nullopt : aim),
       arm_(kArrow * projection.units_per_pixel(light.disk.center)),
       start_grip_(grip(projection, start)) {}
 
@@ -164,7 +165,9 @@ HandledLight HandleDrag::moved_to(const Projection& projection, const PicturePoi
     disk.normal = unit(*now - start_.disk.center);
   } else {
     disk.center = start_.disk.center + (*now - *start_grip_);
-    if (light.middle && *now != *start_grip_) disk.normal = unit(*light.middle - disk.center);
+    const std::optional<Vec3>& shone_at = light.middle ? light.middle : aim_;
+    if (shone_at && *now != *start_grip_ && *shone_at != disk.center)
+      disk.normal = unit(*shone_at - disk.center);
   }
   if (light.middle && disk.normal != start_.disk.normal)
     disk.center = *light.middle - glm::length(start_.disk.center - *light.middle) * disk.normal;

@@ -39,9 +39,12 @@ Handle pick(const HandleShape& shape, const Projection& projection, const Pictur
 /// A drag from press to release. The light follows the pointer without a jump at the start.
 class HandleDrag {
  public:
+  /// `aim`: where a near light keeps shining while it is moved; none: it keeps its direction.
   HandleDrag(Handle handle, const HandledLight& light, const Projection& projection,
-             const PicturePoint& start);
+             const PicturePoint& start, const std::optional<Vec3>& aim = std::nullopt);
   Handle handle() const { return handle_; }
+  /// The light as it was when the drag began.
+  const HandledLight& start() const { return start_; }
   /// The light for this place of the pointer; the light at the start where the drag has no meaning there (its
   /// axis along the line of sight, say).
   HandledLight moved_to(const Projection& projection, const PicturePoint& pointer) const;
@@ -51,6 +54,7 @@ class HandleDrag {
 
   Handle handle_;
   HandledLight start_;
+  std::optional<Vec3> aim_;
   double arm_;  ///< length of the normal's arrow, scene units
   std::optional<Vec3> start_grip_;
 };

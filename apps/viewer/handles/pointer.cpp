@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "apps/viewer/handles/aim.h"
 #include "apps/viewer/handles/navigation.h"
 
 namespace penumbra::viewer {
@@ -58,13 +59,25 @@ void Pointer::update(State& state, const Frame* frame) {
   if (ours && io.MouseWheel != 0.0f) wheel(state, projection, frame, io.MouseWheel);
 }
 
+void Pointer::cancel(State& state) {
+  if (!dragging()) return;
+  drag_ = Drag::kNone;
+  held_.reset();
+  state.lights = before_->lights;
+  state.camera = before_->camera;
+  state.divider = before_->divider;
+}
+
 void Pointer::press(const State& state, const Projection& projection, int button) {
   button_ = button;
+  before_ = state;
   if (button == kMiddle || ImGui::GetIO().KeyShift) {
     drag_ = Drag::kPan;
   } else if (hovered_ != Handle::kNone) {
     drag_ = Drag::kHandle;
-    held_.emplace(hovered_, state.handled(), projection, *at_);
+    const HandledLight light = state.handled();
+    held_.emplace(hovered_, light, projection, *at_,
+                  state.aim && !light.middle ? lit_point(*state.model, light.disk) : std::nullopt);
   } else {
     drag_ = over_divider_ ? Drag::kDivider : Drag::kRotate;
   }

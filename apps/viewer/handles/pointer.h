@@ -15,6 +15,8 @@ class Pointer {
   /// pointer.
   void update(State& state, const Frame* frame);
   bool dragging() const { return drag_ != Drag::kNone; }
+  /// Ends a drag that is under way: the light, the camera and the divider are as they were when it began.
+  void cancel(State& state);
   /// The handle that is dragged or would be.
   Handle handle() const { return held_ ? held_->handle() : hovered_; }
   bool over_divider() const { return over_divider_ || drag_ == Drag::kDivider; }
@@ -32,6 +34,7 @@ class Pointer {
   Handle hovered_ = Handle::kNone;
   bool over_divider_ = false;
   std::optional<HandleDrag> held_;
+  std::optional<State> before_;  ///< the drag
   std::optional<PicturePoint> at_;
 };
 

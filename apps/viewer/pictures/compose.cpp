@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/common/picture.h"
+#include "apps/viewer/pictures/overlay_colors.h"
 
 namespace penumbra::viewer {
 
@@ -13,8 +14,11 @@ namespace {
 using Color = std::array<unsigned char, 3>;
 
 Color region_color(float region) {
-  if (region < 0.0f) return {120, 120, 120};
-  return region == 0.0f ? Color{255, 230, 120} : region == 1.0f ? Color{235, 130, 50} : Color{60, 80, 190};
+  const OverlayColor& c = region < 0.0f    ? kRegionUnknown
+                          : region == 0.0f ? kRegionLit
+                          : region == 1.0f ? kRegionPartly
+                                           : kRegionUmbra;
+  return {c.r, c.g, c.b};
 }
 
 Color visibility_color(float visibility) {

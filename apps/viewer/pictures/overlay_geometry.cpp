@@ -6,35 +6,29 @@
 #include <glm/geometric.hpp>
 
 #include "apps/common/scene_volumes.h"
+#include "apps/viewer/pictures/overlay_colors.h"
 #include "penumbra/volumes/volumes.h"
 
 namespace penumbra::viewer {
 namespace {
 
-struct Color {
-  unsigned char r, g, b, a;
-};
-constexpr Color kAllFront{250, 220, 90, 110}, kMixed{240, 120, 40, 130}, kNoneFront{70, 90, 200, 110};
-constexpr Color kPenumbraLine{255, 140, 30, 255}, kUmbraLine{70, 120, 255, 255},
-    kBandLine{150, 150, 150, 220};
+using Color = OverlayColor;
 
 Color face_color(FaceClass face) {
-  if (face == FaceClass::kMixed) return kMixed;
-  return face == FaceClass::kAllFront ? kAllFront : kNoneFront;
+  if (face == FaceClass::kMixed) return kMixedColor;
+  return face == FaceClass::kAllFront ? kAllFrontColor : kNoneFrontColor;
 }
 
 Color sheet_color(ShadowKind kind) {
   switch (kind) {
-    case ShadowKind::kPenumbraFacet:
-      return {255, 150, 40, 60};
     case ShadowKind::kPenumbraCone:
-      return {255, 205, 90, 60};
+      return kPenumbraConeColor;
     case ShadowKind::kUmbraFacet:
-      return {70, 120, 255, 60};
+      return kUmbraFacetColor;
     case ShadowKind::kUmbraCap:
-      return {120, 90, 255, 90};
+      return kUmbraCapColor;
     default:
-      return {255, 150, 40, 40};
+      return kPenumbraFacetColor;
   }
 }
 
@@ -109,16 +103,16 @@ class Builder {
     if (wanted_.faces)
       for (std::size_t f = 0; f < classes.size(); ++f)
         triangle(out_.faces, mesh.positions(), mesh.triangles()[f], face_color(classes[f]));
-    if (wanted_.band) lines(mesh, made.silhouettes.band, kBandLine);
+    if (wanted_.band) lines(mesh, made.silhouettes.band, kBandColor);
     if (wanted_.silhouettes) {
-      lines(mesh, made.silhouettes.penumbra, kPenumbraLine);
-      lines(mesh, made.silhouettes.umbra, kUmbraLine);
+      lines(mesh, made.silhouettes.penumbra, kPenumbraColor);
+      lines(mesh, made.silhouettes.umbra, kUmbraColor);
     }
     for (std::size_t t = 0; t < made.sheets.triangles.size(); ++t)
       triangle(out_.sheets, made.sheets.positions, made.sheets.triangles[t],
                sheet_color(made.sheets.tags[t].kind));
-    volume(made.penumbra, {255, 150, 40, 0});
-    volume(made.umbra, {70, 110, 255, 0});
+    volume(made.penumbra, kPenumbraColor);
+    volume(made.umbra, kUmbraColor);
   }
 
   const Scene& scene_;

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
-#include "penumbra/volumes/disk_light.h"
+#include "apps/viewer/pictures/cut.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -37,23 +37,6 @@ void main() {
   color = shade;
 }
 )";
-
-/// Where sheets and volumes end: what is further along the axis than `most`, from the geometry's origin.
-struct Cut {
-  Vec3 axis;
-  double most;
-};
-
-Cut cut_of(const State& state, const OverlayGeometry& g) {
-  const Overlays& o = state.overlays;
-  if (o.cut_axis == CutAxis::kLight) {
-    const Vec3 normal = light_frame(state.circular()).w;
-    return {normal, glm::dot(g.start - g.origin, normal) + o.cut * g.reach};
-  }
-  Vec3 axis(0.0);
-  axis[static_cast<int>(o.cut_axis) - static_cast<int>(CutAxis::kX)] = 1.0;
-  return {axis, o.cut < 1.0 ? (2.0 * o.cut - 1.0) * g.bound : 3e38};
-}
 
 }  // namespace
 
@@ -96,7 +79,7 @@ void OverlayPass::draw_list(const List& list, GLenum mode) const {
   gl_.DrawArrays(mode, 0, list.count);
 }
 
-void OverlayPass::draw(const State& state, int width, int height) const {
+void OverlayPass::draw(const State& state, const Viewport& place) const {
   if (!geometry_) return;
   const OverlayGeometry& g = *geometry_;
   // Everything relative to g.origin, so that float is enough.
@@ -105,9 +88,9 @@ void OverlayPass::draw(const State& state, int width, int height) const {
   camera.target -= g.origin;
   const double distance = glm::length(camera.eye), far = distance + 3.0 * g.bound;
   const double near = std::max(1e-3 * g.bound, distance - 3.0 * g.bound);
-  const std::array<float, 16> matrix = Projection(camera, width, height).clip_matrix(near, far);
+  const std::array<float, 16> matrix = Projection(camera, place.width, place.height).clip_matrix(near, far);
   const Cut cut = cut_of(state, g);
-  gl_.Viewport(0, 0, width, height);
+  gl_.Viewport(0, place.bottom, place.width, place.height);
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.DepthFunc(GL_LEQUAL);
@@ -132,8 +115,8 @@ void OverlayPass::draw(const State& state, int width, int height) const {
   gl_.Uniform1f(program_.uniform("cut"), 3e38f);
   gl_.Uniform1f(program_.uniform("nearer"), 4e-4f);
   for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {0, 1}}) {  // core OpenGL draws lines one pixel wide
-    gl_.Uniform2f(program_.uniform("shift"), 2.0f * static_cast<float>(x) / static_cast<float>(width),
-                  2.0f * static_cast<float>(y) / static_cast<float>(height));
+    gl_.Uniform2f(program_.uniform("shift"), 2.0f * static_cast<float>(x) / static_cast<float>(place.width),
+                  2.0f * static_cast<float>(y) / static_cast<float>(place.height));
     draw_list(lines_, GL_LINES);
   }
   gl_.BindVertexArray(0);

@@ -10,14 +10,19 @@
 
 namespace penumbra::viewer {
 
+/// Where the picture is in a framebuffer, whose rows count from the bottom. Pixels.
+struct Viewport {
+  int bottom, width, height;
+};
+
 class OverlayPass {
  public:
   explicit OverlayPass(const gl::Functions& gl);
   /// Uploads when it is another one. Null: nothing will be drawn.
   void set(std::shared_ptr<const OverlayGeometry> geometry);
-  /// Into the lower left width × height pixels of the bound framebuffer; blending must be on. Changes GL
-  /// state freely.
-  void draw(const State& state, int width, int height) const;
+  /// Into `place` of the bound framebuffer; blending must be on. Changes GL state freely.
+  void draw(const State& state, const Viewport& place) const;
+  const OverlayGeometry* geometry() const { return geometry_.get(); }
 
  private:
   struct List {

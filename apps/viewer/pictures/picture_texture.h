@@ -16,7 +16,8 @@ struct Pixels {
 class PictureTexture {
  public:
   explicit PictureTexture(const gl::Functions& functions);
-  void upload(const Pixels& pixels);
+  /// `smooth`: pixels of the picture run into each other where it is shown larger than it is.
+  void upload(const Pixels& pixels, bool smooth = false);
   /// What ImGui calls a texture.
   void* id() const;
   bool empty() const { return empty_; }

@@ -14,18 +14,27 @@ namespace penumbra::viewer {
 
 class PictureView {
  public:
-  explicit PictureView(const gl::Functions& gl) : left_(gl), right_(gl), difference_(gl), textures_(gl) {}
+  /// `plain`: titles and legend are left out.
+  PictureView(const gl::Functions& gl, bool plain)
+      : plain_(plain), left_(gl), right_(gl), difference_(gl), textures_(gl) {}
   /// Uploads what has changed since the last call.
   void update(const State& state, std::shared_ptr<const Frame> frame);
   /// The pictures, into ImGui's background.
   void draw_picture(const State& state) const;
-  /// What lies over them: divider, names, a note while it is a draft, the light.
-  void draw_marks(const State& state, const Pointer& pointer, bool settled) const;
+  /// What lies over them: divider, method and frame rate, the light, legend.
+  struct Marks {
+    const Pointer& pointer;
+    bool settled;
+    int per_second;  ///< pictures that arrived in the last second
+  };
+  void draw_marks(const State& state, const Marks& marks) const;
   const Frame* frame() const { return frame_.get(); }
 
  private:
   void draw_textures(ImDrawList& list, float width, float height) const;
+  void draw_titles(ImDrawList& list, const State& state, const Marks& marks) const;
 
+  bool plain_;
   PictureTexture left_, right_, difference_, textures_;
   std::shared_ptr<const Frame> frame_;
   double exposure_ = 0.0, scale_ = 0.0;

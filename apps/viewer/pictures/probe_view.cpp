@@ -2,9 +2,12 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
 
+#include "apps/viewer/panel/words.h"
 #include "apps/viewer/pictures/disk_view.h"
 #include "render/light/light_integrals.h"
 
@@ -73,7 +76,10 @@ void ProbeView::draw(const State& state, const Frame* frame, const Pointer& poin
     place_ = Place{*pixel, s.object[*pixel], s.face[*pixel], s.position[*pixel], s.normal[*pixel]};
     ask(state, *frame);
   }
-  ImGui::SetNextWindowPos({12.0f, 44.0f}, ImGuiCond_FirstUseEver);
+  // At the upper right: the legend is at the lower left.
+  const float font = ImGui::GetFontSize();
+  ImGui::SetNextWindowPos({std::max(font, static_cast<float>(state.left.width) - 15.0f * font), 3.2f * font},
+                          ImGuiCond_FirstUseEver);
   ImGui::Begin("Probe", nullptr,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
@@ -88,13 +94,14 @@ void ProbeView::draw(const State& state, const Frame* frame, const Pointer& poin
 void ProbeView::write(const State& state, const Frame& frame) const {
   if (!place_) return ImGui::TextUnformatted("no surface here");
   const auto& object = state.model->objects[static_cast<std::size_t>(place_->object)];
-  ImGui::Text("%s, face %u", object.name.c_str(), place_->face);
+  ImGui::Text("%s, face %u", std::filesystem::path(object.name).filename().c_str(), place_->face);
   ImGui::Text("at %.3f %.3f %.3f", place_->position.x, place_->position.y, place_->position.z);
+  ImGui::TextDisabled("the part of the light that it sees");
   for (const Side& side : frame.sides)
-    ImGui::Text("V by %s: %.4f", side.options.method.c_str(),
+    ImGui::Text("%s: %.4f", words_of_method(side.options.method).c_str(),
                 double{side.result->image.at(frame.channel("visibility"))[place_->pixel]});
   if (!answer_) return ImGui::TextUnformatted("tracing rays");
-  ImGui::Text("V by %d rays: %.4f", kRays, answer_->by_rays);
+  ImGui::Text("%s rays: %.4f", with_commas(kRays).c_str(), answer_->by_rays);
   ImGui::Text("above the horizon: %.4f", answer_->above_horizon);
   if (texture_.empty())
     ImGui::TextUnformatted("this point sees nothing of the disk");

@@ -24,15 +24,6 @@ constexpr std::array kShown{std::pair(Shown::kPicture, "picture"),
 constexpr std::array kCutAxes{std::pair(CutAxis::kLight, "light"), std::pair(CutAxis::kX, "x"),
                               std::pair(CutAxis::kY, "y"), std::pair(CutAxis::kZ, "z")};
 
-constexpr std::array kFlags{std::pair("light", &Overlays::light),
-                            std::pair("faces", &Overlays::faces),
-                            std::pair("silhouettes", &Overlays::silhouettes),
-                            std::pair("band", &Overlays::band),
-                            std::pair("sheets", &Overlays::sheets),
-                            std::pair("penumbra", &Overlays::penumbra),
-                            std::pair("umbra", &Overlays::umbra),
-                            std::pair("textures", &Overlays::textures)};
-
 nlohmann::json to_json(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
@@ -57,6 +48,8 @@ nlohmann::json viewer_settings(const State& state) {
                          {"exposure", state.exposure},
                          {"difference_scale", state.difference_scale},
                          {"cut", state.overlays.cut},
+                         {"detail", state.overlays.detail},
+                         {"aim", state.aim},
                          {"probe", state.probe},
                          {"light", state.selected}};
   for (const auto& [value, name] : kArrangements)
@@ -65,7 +58,7 @@ nlohmann::json viewer_settings(const State& state) {
     if (value == state.shown) json["shown"] = name;
   for (const auto& [value, name] : kCutAxes)
     if (value == state.overlays.cut_axis) json["cut_axis"] = name;
-  for (const auto& [name, flag] : kFlags) json["overlays"][name] = state.overlays.*flag;
+  for (const auto& [name, flag] : kOverlayFlags) json["overlays"][name] = state.overlays.*flag;
   return json;
 }
 
@@ -156,10 +149,13 @@ void read_viewer_settings(const nlohmann::json& settings, State& state) {
   state.exposure = settings.value("exposure", state.exposure);
   state.difference_scale = settings.value("difference_scale", state.difference_scale);
   state.overlays.cut = settings.value("cut", state.overlays.cut);
+  state.overlays.detail = std::clamp(settings.value("detail", state.overlays.detail), kFinest, kCoarsest);
+  state.aim = settings.value("aim", state.aim);
   state.probe = settings.value("probe", state.probe);
   state.selected = std::min(settings.value("light", state.selected), state.lights.size() - 1);
   const nlohmann::json overlays = settings.value("overlays", nlohmann::json::object());
-  for (const auto& [name, flag] : kFlags) state.overlays.*flag = overlays.value(name, state.overlays.*flag);
+  for (const auto& [name, flag] : kOverlayFlags)
+    state.overlays.*flag = overlays.value(name, state.overlays.*flag);
 }
 
 std::string headless_command(const std::filesystem::path& scene, const State& state) {

@@ -35,6 +35,14 @@ nlohmann::json light_report(const State& state) {
   return json;
 }
 
+// Those that are on, by name.
+nlohmann::json overlays_on(const Overlays& o) {
+  nlohmann::json on = nlohmann::json::array();
+  for (const auto& [name, flag] : kOverlayFlags)
+    if (o.*flag) on.push_back(name);
+  return on;
+}
+
 nlohmann::json report(const StatusInput& input) {
   const State& state = input.state;
   nlohmann::json json = {
@@ -50,6 +58,12 @@ nlohmann::json report(const StatusInput& input) {
       {"cut", state.overlays.cut},
       {"cut_axis", static_cast<int>(state.overlays.cut_axis)},
       {"minimised", input.minimised},
+      {"unsaved", input.unsaved},
+      {"can_undo", input.can_undo},
+      {"can_redo", input.can_redo},
+      {"dialog", input.dialog},
+      {"solid_detail", input.solid_detail},
+      {"overlays", overlays_on(state.overlays)},
       {"picture", {state.left.width, state.left.height}},
       {"light", light_report(state)},
       {"lights", state.lights.size()},
@@ -72,12 +86,21 @@ nlohmann::json report(const StatusInput& input) {
 }  // namespace
 
 void StatusFile::update(const StatusInput& input) {
+  if (!path_.empty()) write(report(input));
+}
+
+void StatusFile::update_empty(const std::map<std::string, PicturePoint>& places, const std::string& message) {
   if (path_.empty()) return;
-  const nlohmann::json json = report(input);
-  if (std::string text = apps::to_text(json); text != written_) {
-    apps::write_json(path_, json);
-    written_ = std::move(text);
-  }
+  nlohmann::json json = {{"settled", false}, {"holding", false}, {"empty", true}, {"message", message}};
+  for (const auto& [name, at] : places) json["widgets"][name] = {at.x, at.y};
+  write(json);
+}
+
+void StatusFile::write(const nlohmann::json& json) {
+  std::string text = apps::to_text(json);
+  if (text == written_) return;
+  apps::write_json(path_, json);
+  written_ = std::move(text);
 }
 
 }  // namespace penumbra::viewer

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/viewer/handles/projection.h"
@@ -20,6 +21,9 @@ struct StatusInput {
   const std::string& message;
   bool minimised;
   int per_second;  ///< pictures that arrived in the last second
+  bool unsaved, can_undo, can_redo;
+  std::string dialog;   ///< "unsaved", "open", "help" or none
+  double solid_detail;  ///< of the solids that are shown; 0: none are
 };
 
 class StatusFile {
@@ -28,8 +32,12 @@ class StatusFile {
   explicit StatusFile(std::filesystem::path path) : path_(std::move(path)) {}
   /// Writes the file, whole, where it would say something else than last time.
   void update(const StatusInput& input);
+  /// Nothing is open.
+  void update_empty(const std::map<std::string, PicturePoint>& places, const std::string& message);
 
  private:
+  void write(const nlohmann::json& json);
+
   std::filesystem::path path_;
   std::string written_;
 };

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "apps/viewer/pictures/overlay_geometry.h"
+#include "apps/viewer/pictures/cut.h"
 
 namespace penumbra::viewer {
 namespace {
@@ -72,6 +72,24 @@ TEST(OverlayGeometry, OfALampNearbyBeginsInItsPlane) {
   const OverlayGeometry g = make_overlay_geometry(scene, lamp, everything());
   EXPECT_NEAR(glm::dot(g.start - lamp.center, lamp.normal), 0.0, 1e-9);
   EXPECT_NEAR(extent(scene, g, lamp.normal).second, g.reach, 1e-9);
+}
+
+TEST(Cut, HalfWayAlongAnAxisGoesThroughTheMiddleOfTheCasters) {
+  State state;
+  LoadedScene loaded = load_scene(std::filesystem::path(PENUMBRA_DATA) / "meshes/bunny.ply");
+  state = opened("bunny.ply", loaded, state);
+  state.overlays.cut = 0.5;
+  const OverlayGeometry g = make_overlay_geometry(current_scene(state), state.circular(), state.overlays);
+  for (const auto& [axis, unit] :
+       {std::pair(CutAxis::kX, Vec3(1, 0, 0)), {CutAxis::kY, Vec3(0, 1, 0)}, {CutAxis::kZ, Vec3(0, 0, 1)}}) {
+    state.overlays.cut_axis = axis;
+    const Cut cut = cut_of(state, g);
+    EXPECT_TRUE(cut.cuts);
+    EXPECT_EQ(cut.axis, unit);
+    EXPECT_NEAR(cut.most, glm::dot(state.casters.center() - g.origin, unit), 1e-12);
+  }
+  state.overlays.cut = 1.0;
+  EXPECT_FALSE(cut_of(state, g).cuts);
 }
 
 }  // namespace

@@ -77,6 +77,21 @@ class WindowTest : public ProgramTest {
 
   /// Opens the window and waits for the final picture.
   void open(std::vector<std::string> arguments) {
+    start_with_status(std::move(arguments));
+    until("the first picture", [](const Json& s) { return s["settled"] == true; });
+    ASSERT_TRUE(focuses()) << "the window is not there";
+  }
+  /// Opens the window without a file, in the test's folder.
+  void open_empty() {
+    const std::filesystem::path here = std::filesystem::current_path();
+    std::filesystem::current_path(file(""));
+    start_with_status({"--size", "700x500"});
+    std::filesystem::current_path(here);
+    until("the window", [](const Json& s) { return s.contains("empty"); });
+    ASSERT_TRUE(focuses()) << "the window is not there";
+  }
+
+  void start_with_status(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), viewer());
     for (const std::string& each :
          {std::string("--status"), path("status.json"), std::string("--output"), file("").string()})
@@ -84,8 +99,6 @@ class WindowTest : public ProgramTest {
     program_ = {};  // what an earlier one wrote is not what this one shows
     std::filesystem::remove(file("status.json"));
     program_ = Child(arguments, display_, path("errors"));
-    until("the first picture", [](const Json& s) { return s["settled"] == true; });
-    ASSERT_TRUE(focuses()) << "the window is not there";
   }
 
   /// X refuses the focus to a window that the server has not shown yet.

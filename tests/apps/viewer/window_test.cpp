@@ -38,7 +38,8 @@ TEST_F(WindowTest, StartsOnSceneAndMeshes) {
 }
 
 TEST_F(WindowTest, OverlaysAndProbeAreDrawn) {
-  for (const char* overlay : {"faces", "silhouettes", "band", "sheets", "penumbra", "umbra", "textures"}) {
+  for (const char* overlay : {"faces", "silhouettes", "band", "sheets", "penumbra", "umbra", "penumbra-solid",
+                              "umbra-solid", "textures"}) {
     Child plain = start({kCube, "--size", "320x200", "--plain", "--screenshot", path("plain.png")});
     ASSERT_EQ(plain.wait(), 0) << read_text(file("errors"));
     Child window =
@@ -105,7 +106,7 @@ TEST_F(WindowTest, SliderAndHandlesChangeTheLight) {
   drag(now["handles"]["normal"], 20, 0, "another tilt",
        [&](const Json& s) { return s["light"]["normal"] != before["normal"]; });
   now = status();
-  drag(now["widgets"]["radius"], -30, 0, "the slider's radius",
+  drag(now["widgets"]["Radius"], -30, 0, "the slider's radius",
        [&](const Json& s) { return s["light"]["radius"] != now["light"]["radius"]; });
   key("ctrl+s");
   until("the state saved",
@@ -129,9 +130,9 @@ TEST_F(WindowTest, ASunIsTurnedByItsCenterAndBySliders) {
   drag(now["handles"]["center"], 25, 10, "another direction", turned);
   EXPECT_EQ(status()["light"]["angle_degrees"], before["angle_degrees"]);
   now = status();
-  drag(now["widgets"]["elevation"], -30, 0, "another elevation", turned);
+  drag(now["widgets"]["Elevation"], -30, 0, "another elevation", turned);
   now = status();
-  drag(now["widgets"]["angle"], 20, 0, "another angle",
+  drag(now["widgets"]["Angle"], 20, 0, "another angle",
        [&](const Json& s) { return s["light"]["angle_degrees"] != before["angle_degrees"]; });
   key("ctrl+s");
   until("the state saved",
@@ -220,11 +221,11 @@ TEST_F(WindowTest, ALostFileIsAMessage) {
 TEST_F(WindowTest, IsResizedHiddenAndShownAgain) {
   open({kCube, "--size", "320x200"});
   EXPECT_EQ(tool("search --name Penumbra windowsize 850 420"), 0);
-  settled("the new size", [](const Json& s) { return s["picture"] == Json({520, 420}); });
+  settled("the new size", [](const Json& s) { return s["picture"] == Json({520, 393}); });
   EXPECT_EQ(tool("search --name Penumbra windowsize 40 30"), 0);
   settled("a tiny window", [](const Json& s) { return s["picture"][0] == 16; });
   EXPECT_EQ(tool("search --name Penumbra windowsize 700 300"), 0);
-  settled("the size again", [](const Json& s) { return s["picture"] == Json({370, 300}); });
+  settled("the size again", [](const Json& s) { return s["picture"] == Json({370, 273}); });
   EXPECT_EQ(tool("search --name Penumbra windowunmap"), 0);
   EXPECT_EQ(tool("search --name Penumbra windowmap --sync windowfocus --sync"), 0);
   key("m");
@@ -264,10 +265,10 @@ TEST_F(WindowTest, MiddleDragPansAndDoubleClickLooksAtAPoint) {
 TEST_F(WindowTest, CutIsMovedAndTurned) {
   open({kCube, "--size", "400x760", "--overlay", "sheets"});
   Json now = status();
-  drag(now["widgets"]["cut"], -40, 0, "a nearer cut",
+  drag(now["widgets"]["Cut"], -40, 0, "a nearer cut",
        [](const Json& s) { return s["cut"].get<double>() < 0.9; });
   const Json at =
-      until("the slider let go", [](const Json& s) { return !s["holding"]; })["widgets"]["along y"];
+      until("the slider let go", [](const Json& s) { return !s["holding"]; })["widgets"]["y##cut"];
   tool("mousemove " + std::to_string(at[0].get<int>()) + " " + std::to_string(at[1].get<int>()) + " click 1");
   until("another axis", [](const Json& s) { return s["cut_axis"] == 2; });
 }

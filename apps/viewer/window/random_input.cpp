@@ -1,4 +1,4 @@
-#include "apps/viewer/random_input.h"
+#include "apps/viewer/window/random_input.h"
 
 #include <malloc.h>
 

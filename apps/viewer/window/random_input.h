@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/viewer/commands.h"
-#include "apps/viewer/window.h"
+#include "apps/viewer/window/window.h"
 
 namespace penumbra::viewer {
 

@@ -1,4 +1,4 @@
-#include "apps/viewer/light_panel.h"
+#include "apps/viewer/panel/light_panel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,8 @@ void tilt_sliders(DiskLight& light, Places& places) {
   const Vec3 n = detail::unit(light.normal);
   double tilt = kDegrees * std::acos(std::clamp(-n.y, -1.0, 1.0));
   double turn = std::hypot(n.x, n.z) > 1e-9 ? kDegrees * std::atan2(n.x, n.z) : 0.0;
-  bool changed = slider(places, "tilt", tilt, 0.0, 180.0, "%.1f deg from down");
-  changed |= slider(places, "turn", turn, -180.0, 180.0, "%.1f deg about y");
+  bool changed = slider(places, "Tilt", tilt, 0.0, 180.0, "%.1f° from straight down");
+  changed |= slider(places, "Turn", turn, -180.0, 180.0, "%.1f° about y");
   if (!changed) return;
   tilt = std::clamp(tilt, 0.01, 179.99);  // so that the turn is not forgotten
   const double level = std::sin(tilt / kDegrees);
@@ -32,10 +32,7 @@ void light_choice(State& state, Places& places) {
   if (state.lights.size() < 2) return;
   std::vector<std::string> names;
   for (const Light& light : state.lights) names.push_back(light.name);
-  std::string chosen = names[state.selected];
-  if (combo("light", chosen, names))
-    state.selected = static_cast<std::size_t>(std::find(names.begin(), names.end(), chosen) - names.begin());
-  note_place(places, "light choice");
+  state.selected = combo(places, "Light", state.selected, names);
 }
 
 // A disk, or the disk around a rectangle.
@@ -44,24 +41,24 @@ void near_sliders(State& state, Places& places) {
   const Vec3 middle = state.casters.center();
   DiskLight light = state.handled().disk;
   const DiskLight before = light;
-  slider(places, "x", light.center.x, middle.x - 6.0 * size, middle.x + 6.0 * size, "%.3f units");
-  slider(places, "y", light.center.y, middle.y - 6.0 * size, middle.y + 6.0 * size, "%.3f units");
-  slider(places, "z", light.center.z, middle.z - 6.0 * size, middle.z + 6.0 * size, "%.3f units");
+  slider(places, "x", light.center.x, middle.x - 6.0 * size, middle.x + 6.0 * size, "%.3f");
+  slider(places, "y", light.center.y, middle.y - 6.0 * size, middle.y + 6.0 * size, "%.3f");
+  slider(places, "z", light.center.z, middle.z - 6.0 * size, middle.z + 6.0 * size, "%.3f");
   tilt_sliders(light, places);
-  slider(places, "radius", light.radius, 0.0, 2.0 * size, "%.3f units");
+  slider(places, "Radius", light.radius, 0.0, 2.0 * size, "%.3f");
   if (light != before) state.set_handled(light);
 }
 
 void distant_sliders(State& state, Places& places) {
   DistantLight light = std::get<DistantLight>(state.shape());
   Heading heading = heading_of(light);
-  bool changed = slider(places, "azimuth", heading.azimuth, -180.0, 180.0, "%.1f deg from z to x");
-  changed |= slider(places, "elevation", heading.elevation, -90.0, 90.0, "%.1f deg");
+  bool changed = slider(places, "Azimuth", heading.azimuth, -180.0, 180.0, "%.1f° from z to x");
+  changed |= slider(places, "Elevation", heading.elevation, -90.0, 90.0, "%.1f°");
   if (changed) {
     heading.elevation = std::clamp(heading.elevation, -89.99, 89.99);  // so that the azimuth is not forgotten
     light.direction = direction_from(heading);
   }
-  slider(places, "angle", light.angle_degrees, 0.0, 120.0, "%.3f deg", ImGuiSliderFlags_Logarithmic);
+  slider(places, "Angle", light.angle_degrees, 0.0, 120.0, "%.3f°", ImGuiSliderFlags_Logarithmic);
   if (light != std::get<DistantLight>(state.shape())) state.set_shape(light);
 }
 
@@ -76,18 +73,23 @@ void brightness_slider(Vec3& color, const char* label, const char* format, Place
 }  // namespace
 
 void light_section(State& state, Places& places) {
-  if (!ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  if (!ImGui::CollapsingHeader("Light##section", ImGuiTreeNodeFlags_DefaultOpen)) return;
   light_choice(state, places);
   Vec3& radiance = state.lights[state.selected].radiance;
   if (!std::holds_alternative<DistantLight>(state.shape())) {
     near_sliders(state, places);
-    return brightness_slider(radiance, "radiance", "%.3g W/(m2 sr)", places);
+    ImGui::Checkbox("Keeps shining at the same point when dragged", &state.aim);
+    note_place(places, "Aim");
+    help_on_hover(
+        "While its arrows or its center are dragged the light turns to the point on its axis that it shone "
+        "at.");
+    return brightness_slider(radiance, "Radiance", "%.3g W/(m² sr)", places);
   }
   distant_sliders(state, places);
   const double factor = irradiance_per_radiance(std::get<DistantLight>(state.shape()));
   const Vec3 before = radiance * factor;
   Vec3 irradiance = before;
-  brightness_slider(irradiance, "irradiance", "%.3g W/m2", places);
+  brightness_slider(irradiance, "Irradiance", "%.3g W/m²", places);
   if (irradiance != before) radiance = irradiance / factor;
 }
 

@@ -1,8 +1,8 @@
 // The panel's part about lights: which one is edited, and its numbers.
 #pragma once
 
+#include "apps/viewer/panel/widgets.h"
 #include "apps/viewer/state/state.h"
-#include "apps/viewer/widgets.h"
 
 namespace penumbra::viewer {
 

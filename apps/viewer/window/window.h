@@ -7,36 +7,47 @@
 #include <utility>
 #include <vector>
 
+#include "apps/viewer/window/look.h"
 #include "render/gl/functions.h"
 
 struct GLFWwindow;
 
 namespace penumbra::viewer {
 
+struct WindowOptions {
+  int width = 960, height = 680;  ///< of the picture
+  bool plain = false;             ///< the picture is all there is
+  double font = 0.0;              ///< pixels; 0: 15, times the display's scale
+};
+
 class Window {
  public:
   /// Throws SystemError where there is no display or no OpenGL 4.5.
-  Window(int width, int height, const std::string& title);
+  explicit Window(const WindowOptions& options);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   const gl::Functions& functions() const { return gl_; }
   bool closing() const;
-  void close();
+  /// As if it had not been told to close.
+  void stay_open();
   bool minimised() const;
   void set_title(const std::string& title);
   void set_size(int width, int height);
+  const Look& look() const { return look_; }
+  /// ImGui's number of the large font.
+  static constexpr int kTitleFont = 1;
   /// As if these files were dropped on the window.
   void drop(const std::vector<std::string>& paths);
-  /// Of the picture and the panel, pixels.
+  /// Of all of it, pixels.
   std::pair<int, int> size() const;
   /// Files dropped since the last call.
   std::vector<std::string> take_dropped();
 
   /// Keys pressed since the last call, however short: ImGui only knows which are down when a frame begins.
   struct Key {
-    int key;  ///< GLFW's number
+    int key;  ///< GLFW's number; of letters that of the letter on the key, whatever the keyboard's layout
     bool shift, control;
   };
   std::vector<Key> take_keys();
@@ -61,7 +72,12 @@ class Window {
   std::vector<unsigned char> read_pixels(int& width, int& height) const;
 
  private:
+  void make_context(const WindowOptions& options);
+  void set_callbacks();
+  void start_imgui();
+
   GLFWwindow* window_ = nullptr;
+  Look look_;
   gl::Functions gl_;
   std::vector<std::string> dropped_;
   std::vector<Key> keys_;
