@@ -1,5 +1,7 @@
 #include "apps/common/stats.h"
 
+#include "apps/common/machine.h"
+
 namespace penumbra::apps {
 namespace {
 
@@ -32,12 +34,17 @@ nlohmann::json to_json(const Counts& counts) {
 }
 
 nlohmann::json stats_of(const RenderResult& result, int threads) {
-  nlohmann::json json = {
-      {"method", result.method},           {"options", to_json(result.options)},
-      {"stages", to_json(result.stages)},  {"frame_ms", result.frame_ms},
-      {"setup_ms", to_json(result.setup)}, {"width", result.surface.width},
-      {"height", result.surface.height},   {"threads", threads},
-      {"scene_faces", result.scene_faces}, {"renderer", renderer_of(result.lights.front(), threads)}};
+  nlohmann::json json = {{"method", result.method},
+                         {"options", to_json(result.options)},
+                         {"stages", to_json(result.stages)},
+                         {"frame_ms", result.frame_ms},
+                         {"setup_ms", to_json(result.setup)},
+                         {"width", result.surface.width},
+                         {"height", result.surface.height},
+                         {"threads", threads},
+                         {"scene_faces", result.scene_faces},
+                         {"renderer", renderer_of(result.lights.front(), threads)},
+                         {"peak_memory_bytes", peak_memory_bytes()}};
   if (result.lights.size() == 1) {
     json["counts"] = to_json(result.lights.front().counts);
   } else {

@@ -1,0 +1,83 @@
+// "In short", the choice of a method by budget, and all rows as a table.
+"use strict";
+
+Study.ERROR_BUDGETS = [0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
+Study.TIME_BUDGETS = [5, 10, 20, 50, 100, 300, 1000];
+
+/** The fastest of the points within an error, or the most accurate within a time; null where there is none. */
+Study.bestOf = (points, kind, budget) => {
+  const [limit, wanted] = kind === "error" ? ["y", "x"] : ["x", "y"];
+  return points.filter(p => p[limit] <= budget).reduce((best, p) => best && best[wanted] <= p[wanted] ? best : p, null);
+};
+
+Study.chip = method => Study.element("span", { class: "chip", style: `background: ${Study.colorOf(method)}` });
+
+/** Which method is the fastest for some errors, counted over scenes. */
+Study.fillShort = (place, view) => {
+  const list = Study.element("ul");
+  for (const budget of [0.05, 0.01, 0.002]) {
+    const counts = new Map();
+    for (const seen of Study.scenes) {
+      const best = Study.bestOf(Study.pointsOf(seen.rows, view), "error", budget);
+      const name = best ? best.method : "no method";
+      const entry = counts.get(name) || { scenes: 0, times: [] };
+      entry.scenes += 1;
+      if (best) entry.times.push(best.x);
+      counts.set(name, entry);
+    }
+    const item = Study.element("li", {}, `Within an error of ${budget} the fastest is `);
+    [...counts.entries()].sort((a, b) => b[1].scenes - a[1].scenes).forEach(([name, { scenes, times }], k) => {
+      const span = times.length === 0 ? "" : Math.min(...times) === Math.max(...times) ? ` (${Study.ms(times[0])})`
+        : ` (${Study.ms(Math.min(...times))} to ${Study.ms(Math.max(...times))})`;
+      item.append(k > 0 ? ", " : "", Study.element("b", {}, name), ` on ${scenes} of ${Study.scenes.length} scenes${span}`);
+    });
+    item.append(".");
+    list.append(item);
+  }
+  place.replaceChildren(list);
+};
+
+Study.fillChoice = (place, view, kind, onPick) => {
+  const budgets = kind === "error" ? Study.ERROR_BUDGETS : Study.TIME_BUDGETS;
+  const head = Study.element("tr", {}, Study.element("th", {}, kind === "error" ? "error at most" : "time at most"),
+    ...budgets.map(b => Study.element("th", { scope: "col" }, kind === "error" ? String(b) : Study.ms(b))));
+  const cell = (point) => {
+    if (!point) return Study.element("td", {}, "–");
+    const result = kind === "error" ? Study.ms(point.x) : Study.errorText(point.below ? 0 : point.y);
+    return Study.element("td", {}, Study.element("button", { type: "button", onclick: () => onPick(point) },
+      Study.chip(point.method), point.method, Study.element("span", { class: "small" }, `${result}, ${Study.settingOf(point.label)}`)));
+  };
+  const row = (name, points) => Study.element("tr", {}, Study.element("th", { scope: "row" }, name),
+    ...budgets.map(b => cell(Study.bestOf(points, kind, b))));
+  const body = Study.scenes.map(seen => row(seen.scene, Study.pointsOf(seen.rows, view)));
+  if (Study.scenes.length > 1) body.unshift(row("all scenes", Study.pointsOverAll(view)));
+  place.replaceChildren(Study.element("table", {}, Study.element("thead", {}, head), Study.element("tbody", {}, ...body)));
+};
+
+const COLUMNS = [
+  ["setting", r => r.label],
+  ["frame", r => Study.ms(r.frame_ms.median)],
+  ["quartiles", r => `${Study.digits(r.frame_ms.low)}–${Study.digits(r.frame_ms.high)}`],
+  ["times the default", r => r.over_default ? Study.digits(r.over_default.median) : "–"],
+  ["visibility", r => Study.ms(r.visibility_ms)],
+  ["RMSE", r => Study.errorText(r.error.penumbra.rmse)],
+  ["95% interval", r => `${Study.digits(r.error.penumbra.rmse_low, 2)}–${Study.digits(r.error.penumbra.rmse_high, 2)}`],
+  ["mean", r => Study.digits(r.error.penumbra.mean, 2)],
+  ["median", r => Study.digits(r.error.penumbra.median, 2)],
+  ["p99", r => Study.digits(r.error.penumbra.p99, 2)],
+  ["largest", r => Study.digits(r.error.penumbra.max, 2)],
+  ["RMSE, all pixels", r => Study.errorText(r.error.all.rmse)],
+  ["FLIP", r => r.error.flip === undefined ? "–" : Study.digits(r.error.flip, 2)],
+  ["RMSE by double", r => r.error.double ? Study.errorText(r.error.double.penumbra.rmse) : "–"],
+  ["wrong certificates", r => r.error.certificates ? `${r.error.certificates.contradicted} of ${r.error.certificates.pixels}` : "–"],
+  ["memory, MiB", r => r.peak_mib ? Study.digits(r.peak_mib) : "–"],
+];
+
+Study.fillRows = (place, rows, onPick) => {
+  const sorted = [...rows].sort((a, b) => a.frame_ms.median - b.frame_ms.median);
+  const line = row => Study.element("tr", {}, ...COLUMNS.map(([name, of], k) => k > 0 ? Study.element("td", { class: "number" }, of(row))
+    : Study.element("th", { scope: "row" }, Study.element("button", { type: "button", onclick: () => onPick(row) }, Study.chip(row.method), of(row)))));
+  place.replaceChildren(Study.element("table", {},
+    Study.element("thead", {}, Study.element("tr", {}, ...COLUMNS.map(([name], k) => Study.element("th", { scope: "col", class: k > 0 ? "number" : "" }, name)))),
+    Study.element("tbody", {}, ...sorted.map(line))));
+};

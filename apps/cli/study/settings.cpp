@@ -1,0 +1,101 @@
+#include "apps/cli/study/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "penumbra/mesh/error.h"
+
+namespace penumbra::apps {
+namespace {
+
+constexpr int kFewestPowers = -4, kMostPowers = 2;  // of 4
+constexpr std::size_t kQuickSteps = 3;
+
+struct Steps {
+  const OptionValue& usual;
+
+  std::vector<OptionValue> operator()(const IntegerRange& range) const {
+    std::vector<OptionValue> out;
+    const auto middle = static_cast<double>(std::get<std::uint64_t>(usual));
+    for (int power = kFewestPowers; power <= kMostPowers; ++power) {
+      const double value = middle * std::pow(4.0, power);
+      if (value == std::floor(value) && value >= static_cast<double>(range.low) &&
+          value <= static_cast<double>(range.high))
+        out.emplace_back(static_cast<std::uint64_t>(value));
+    }
+    return out;
+  }
+  std::vector<OptionValue> operator()(const IntegerChoice& choice) const {
+    return {choice.values.begin(), choice.values.end()};
+  }
+  std::vector<OptionValue> operator()(const RealRange& range) const {
+    std::vector<OptionValue> out(range.words.begin(), range.words.end());
+    if (range.low == 0.0 && range.low_included) out.emplace_back(0.0);
+    const auto* middle = std::get_if<double>(&usual);
+    for (int power = kFewestPowers; middle && power <= kMostPowers; ++power) {
+      const double value = *middle * std::pow(4.0, power);
+      if (value > range.low && value <= range.high) out.emplace_back(value);
+    }
+    return out;
+  }
+  std::vector<OptionValue> operator()(const WordChoice& choice) const {
+    return {choice.words.begin(), choice.words.end()};
+  }
+};
+
+std::optional<Setting> draft_of(const MethodInfo& method, const Setting& usual) {
+  Setting draft = usual;
+  draft.varied = "draft";
+  for (const OptionSchema& option : method.options)
+    if (option.draft) draft.options[option.name] = *option.draft;
+  return draft.options == usual.options ? std::nullopt : std::optional(draft);
+}
+
+}  // namespace
+
+std::string Setting::label() const {
+  std::string text = method;
+  for (const OptionSchema& option : method_named(method).options) {
+    const auto value = options.find(option.name);
+    if (value != options.end() && value->second != option.usual)
+      text += ", " + option.name + " " + penumbra::to_text(value->second);
+  }
+  return text;
+}
+
+std::vector<OptionValue> steps_of(const OptionSchema& option) {
+  return option.steps ? *option.steps : std::visit(Steps{option.usual}, option.domain);
+}
+
+std::vector<Setting> settings_of(const MethodInfo& method, bool quick) {
+  std::vector<Setting> all{{.method = method.name, .options = completed(method.options, {})}};
+  const Setting usual = all.front();
+  const auto add = [&all](const Setting& setting) {
+    if (std::ranges::find(all, setting.options, &Setting::options) == all.end()) all.push_back(setting);
+  };
+  if (const auto draft = draft_of(method, usual)) add(*draft);
+  for (const OptionSchema& option : method.options) {
+    if (quick && &option != &method.options.front()) break;
+    std::vector<OptionValue> steps = steps_of(option);
+    if (quick) steps.resize(std::min(steps.size(), kQuickSteps));
+    for (const OptionValue& value : steps) {
+      Setting setting = usual;
+      setting.varied = option.name;
+      setting.options[option.name] = value;
+      add(setting);
+    }
+  }
+  return all;
+}
+
+bool takes(const MethodInfo& method, const LightShape& light) {
+  try {
+    require_taken(method, light);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+}  // namespace penumbra::apps
