@@ -84,6 +84,7 @@ Verdict CaseJudge::judge(const Measured& measured) {
 nlohmann::json to_json(const Verdict& verdict) {
   nlohmann::json out = {{"penumbra", figures_json(verdict.by_rays.in_penumbra)},
                         {"all", figures_json(verdict.by_rays.all)},
+                        {"samples", verdict.by_rays.samples},
                         {"resampled", verdict.by_rays.resampled}};
   if (verdict.by_double.samples > 0)
     out["double"] = {{"penumbra", figures_json(verdict.by_double.in_penumbra)},

@@ -10,7 +10,8 @@ namespace penumbra::apps {
 namespace {
 
 constexpr int kFewestPowers = -4, kMostPowers = 2;  // of 4
-constexpr std::size_t kQuickSteps = 3;
+constexpr std::size_t kMostCombinations = 16;
+constexpr std::size_t kQuickSteps = 3, kMostQuickCombinations = 8;
 
 struct Steps {
   const OptionValue& usual;
@@ -52,6 +53,45 @@ std::optional<Setting> draft_of(const MethodInfo& method, const Setting& usual) 
   return draft.options == usual.options ? std::nullopt : std::optional(draft);
 }
 
+/// An option and the values that are tried.
+struct OptionSteps {
+  std::string name;
+  std::vector<OptionValue> values;
+};
+
+std::size_t combinations(const std::vector<OptionSteps>& steps) {
+  std::size_t count = 1;
+  for (const OptionSteps& option : steps) count *= option.values.size();
+  return count;
+}
+
+std::vector<Setting> varied_alone(const Setting& usual, const std::vector<OptionSteps>& steps) {
+  std::vector<Setting> out;
+  for (const OptionSteps& option : steps)
+    for (const OptionValue& value : option.values) {
+      out.push_back(usual);
+      out.back().varied = option.name;
+      out.back().options[option.name] = value;
+    }
+  return out;
+}
+
+std::vector<Setting> combined(const Setting& usual, const std::vector<OptionSteps>& steps) {
+  std::vector<Setting> out{usual};
+  for (const OptionSteps& option : steps) {
+    std::vector<Setting> more;
+    for (const Setting& before : out)
+      for (const OptionValue& value : option.values) {
+        more.push_back(before);
+        if (value == usual.options.at(option.name)) continue;
+        more.back().options[option.name] = value;
+        more.back().varied = before.varied.empty() ? option.name : "several";
+      }
+    out = std::move(more);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string Setting::label() const {
@@ -71,21 +111,23 @@ std::vector<OptionValue> steps_of(const OptionSchema& option) {
 std::vector<Setting> settings_of(const MethodInfo& method, bool quick) {
   std::vector<Setting> all{{.method = method.name, .options = completed(method.options, {})}};
   const Setting usual = all.front();
-  const auto add = [&all](const Setting& setting) {
-    if (std::ranges::find(all, setting.options, &Setting::options) == all.end()) all.push_back(setting);
+  const auto add = [&all](const std::vector<Setting>& more) {
+    for (const Setting& setting : more)
+      if (std::ranges::find(all, setting.options, &Setting::options) == all.end()) all.push_back(setting);
   };
-  if (const auto draft = draft_of(method, usual)) add(*draft);
+  if (const auto draft = draft_of(method, usual)) add({*draft});
+  std::vector<OptionSteps> steps;
   for (const OptionSchema& option : method.options) {
-    if (quick && &option != &method.options.front()) break;
-    std::vector<OptionValue> steps = steps_of(option);
-    if (quick) steps.resize(std::min(steps.size(), kQuickSteps));
-    for (const OptionValue& value : steps) {
-      Setting setting = usual;
-      setting.varied = option.name;
-      setting.options[option.name] = value;
-      add(setting);
-    }
+    const bool first = &option == &method.options.front();
+    if (quick && !first && !std::holds_alternative<WordChoice>(option.domain)) continue;
+    steps.push_back({option.name, steps_of(option)});
+    if (quick && first) steps.back().values.resize(std::min(steps.back().values.size(), kQuickSteps));
+    if (std::ranges::find(steps.back().values, option.usual) == steps.back().values.end())
+      steps.back().values.push_back(option.usual);
   }
+  const bool few = combinations(steps) <= (quick ? kMostQuickCombinations : kMostCombinations);
+  if (quick && !few) steps.resize(1);
+  add(few ? combined(usual, steps) : varied_alone(usual, steps));
   return all;
 }
 

@@ -22,6 +22,8 @@ using nlohmann::json;
 
 /// Rows that are timed in turn.
 constexpr std::size_t kGroup = 6;
+/// Of the cases that show how cost grows.
+constexpr int kGrowthSamples = 1'024, kSpheres = 4;
 
 json about_of(const StudyOptions& options) {
   return {{"machine", describe_machine()},
@@ -92,9 +94,10 @@ class CaseStudy {
 
   StudyRecord& record_;
   const StudyOptions& options_;
-  const std::filesystem::path& scene_path_;
+  const std::filesystem::path scene_path_;
   const StudyCase case_;
   const std::string digest_ = case_.digest();
+  json about_;
   LitPicture lit_;
   bool has_reference_ = false;
 };
@@ -107,7 +110,8 @@ std::vector<Setting> CaseStudy::missing_settings() const {
       continue;
     if (!takes(method, case_.scene.lights.front().shape)) continue;
     for (Setting& setting : settings_of(method, options_.quick))
-      if (!record_.has_row(key_of(setting))) missing.push_back(std::move(setting));
+      if ((case_.sweep.empty() || setting.varied.empty()) && !record_.has_row(key_of(setting)))
+        missing.push_back(std::move(setting));
   }
   return missing;
 }
@@ -119,11 +123,11 @@ void CaseStudy::begin(Renderer& renderer) {
   const std::filesystem::path folder = record_.folder() / "pictures";
   std::filesystem::create_directories(folder);
   write_lit(folder / (name + ".lit.png"), lit_);
-  json about = case_.to_json();
-  about["lit_picture"] = name + ".lit.png";
-  about["reference_picture"] = name + ".reference.png";
-  about["exposure_stops"] = lit_.exposure_stops;
-  record_.add_case(rounded(std::move(about)));
+  about_ = case_.to_json();
+  about_["lit_picture"] = name + ".lit.png";
+  about_["reference_picture"] = name + ".reference.png";
+  about_["exposure_stops"] = lit_.exposure_stops;
+  record_.add_case(rounded(about_));
 }
 
 double CaseStudy::flip_of(const Renderer& renderer, const Measured& measured,
@@ -151,7 +155,7 @@ json CaseStudy::row_of(const Setting& setting, const Measured& measured, const R
   row["stages"] = to_json(measured.stages);
   row["visibility_ms"] = visibility_ms(measured.stages);
   if (!measured.renderer.empty()) row["renderer"] = measured.renderer;
-  if (options_.memory && case_.view.light_scale == 1.0)
+  if (options_.memory && case_.sweep.empty())
     if (const auto peak = peak_memory(scene_path_.string(), case_.view, setting)) row["peak_mib"] = *peak;
   const Verdict verdict = judge.judge(measured);
   row["error"] = to_json(verdict);
@@ -185,22 +189,68 @@ std::size_t CaseStudy::run(const Progress& progress) {
   return missing.size();
 }
 
+/// Errors are of less interest where cost is: fewer rays, none in double.
+StudyOptions for_growth(StudyOptions options) {
+  options.judge.samples = std::min(options.judge.samples, kGrowthSamples);
+  options.judge.resample = false;
+  options.judge.double_pixels = 0;
+  return options;
+}
+
+/// All cases of a study one after the other, since scenes may be large.
+class Study {
+ public:
+  Study(const StudyOptions& options, const Progress& progress)
+      : options_(options),
+        growth_(for_growth(options)),
+        record_(options.output, about_of(options)),
+        progress_(progress),
+        parts_(options.scenes.size() + (options.growth ? 1 + kSpheres : 0)) {}
+
+  std::size_t run() {
+    for (const std::filesystem::path& path : options_.scenes) run_scene(path);
+    if (options_.growth) run_growth();
+    return measured_;
+  }
+
+ private:
+  Scene read(const std::filesystem::path& path) const { return load({.path = path}); }
+  Progress next_part() {
+    const double from = part_++, all = static_cast<double>(parts_);
+    return part_of(progress_, from / all, (from + 1.0) / all);
+  }
+  void finish_part() {
+    write_tables(record_);
+    write_page(record_);
+  }
+  void run_scene(const std::filesystem::path& path) {
+    CaseStudy study(record_, options_, path, make_case(path.stem().string(), read(path), options_.view));
+    measured_ += study.run(next_part());
+    finish_part();
+  }
+  void run_growth() {
+    const std::filesystem::path& path = options_.scenes.front();
+    const Progress part = next_part();
+    for (StudyCase& seen : growth_cases(path.stem().string(), read(path), options_.view))
+      measured_ += CaseStudy(record_, growth_, path, std::move(seen)).run(part);
+    for (int level = 0; level < kSpheres; ++level)
+      measured_ += CaseStudy(record_, growth_, {}, sphere_case(level, options_.view)).run(next_part());
+    finish_part();
+  }
+
+  const StudyOptions& options_;
+  const StudyOptions growth_;
+  StudyRecord record_;
+  const Progress& progress_;
+  std::size_t parts_;
+  int part_ = 0;
+  std::size_t measured_ = 0;
+};
+
 }  // namespace
 
 std::size_t run_study(const StudyOptions& options, const Progress& progress) {
-  StudyRecord record(options.output, about_of(options));
-  const auto scenes = static_cast<double>(options.scenes.size());
-  std::size_t measured = 0;
-  for (std::size_t k = 0; k < options.scenes.size(); ++k) {
-    const std::filesystem::path& path = options.scenes[k];
-    const Scene scene = load({.path = path});
-    CaseStudy study(record, options, path, make_case(path.stem().string(), scene, options.view));
-    measured += study.run(
-        part_of(progress, static_cast<double>(k) / scenes, (static_cast<double>(k) + 1.0) / scenes));
-    write_tables(record);
-    write_page(record);
-  }
-  return measured;
+  return Study(options, progress).run();
 }
 
 }  // namespace penumbra::apps

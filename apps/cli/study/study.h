@@ -25,6 +25,8 @@ struct StudyOptions {
   bool quick = false;
   /// Whether each row's memory is measured, by a program of its own.
   bool memory = true;
+  /// Also how cost grows: of the first scene with its light and with the picture's size, and of a sphere with its faces.
+  bool growth = false;
   /// What the page says of the program's sources.
   std::string commit{};
 };

@@ -8,6 +8,7 @@
 
 #include "apps/cli/made_by.h"
 #include "penumbra/mesh/error.h"
+#include "penumbra/mesh/shapes.h"
 
 namespace penumbra::apps {
 namespace {
@@ -88,6 +89,8 @@ nlohmann::json StudyCase::to_json() const {
           {"height", view.height},
           {"light_scale", view.light_scale},
           {"light", nlohmann::json::parse(about.at("penumbraLights")).front()},
+          {"sweep", sweep},
+          {"group", group},
           {"faces", faces_of(scene, false)},
           {"caster_faces", faces_of(scene, true)}};
 }
@@ -96,9 +99,35 @@ StudyCase make_case(const std::string& name, const Scene& scene, const StudyView
   if (scene.lights.size() != 1)
     throw UsageError(name + ": has " + std::to_string(scene.lights.size()) +
                      " lights; a study needs scenes that have one");
-  StudyCase out{name, scene, view};
+  StudyCase out{.scene_name = name, .scene = scene, .view = view, .group = name};
   LightShape& shape = out.scene.lights.front().shape;
   if (view.light_scale != 1.0) shape = std::visit(Scaled{view.light_scale}, shape);
+  return out;
+}
+
+std::vector<StudyCase> growth_cases(const std::string& name, const Scene& scene, const StudyView& view) {
+  std::vector<StudyCase> out;
+  const auto add = [&](const StudyView& other, const char* sweep) {
+    out.push_back(make_case(name, scene, other));
+    out.back().sweep = sweep;
+  };
+  for (const double scale : {0.125, 0.25, 0.5, 2.0, 4.0}) add({view.width, view.height, scale}, "light");
+  for (const double side : {0.25, 0.5, 2.0})
+    add({static_cast<int>(side * view.width), static_cast<int>(side * view.height)}, "size");
+  return out;
+}
+
+StudyCase sphere_case(int level, const StudyView& view) {
+  constexpr int kSplits[] = {3, 5, 7, 8};  // 20 · 4^splits faces
+  const int splits = kSplits[level];
+  Scene scene;
+  scene.lights = {{.shape = DiskLight{.center = {0, 10, 0}, .normal = {0, -1, 0}, .radius = 0.8}}};
+  scene.camera = {.eye = {6.5, 7.5, 9}, .target = {0, 2.6, 0}, .up = {0, 1, 0}, .fov_y_degrees = 52};
+  scene.objects = {{.name = "floor", .mesh = make_plane(12.0), .casts = false},
+                   {.name = "sphere", .mesh = make_icosphere({-0.3, 5, 0.1}, 1.0, splits)}};
+  StudyCase out = make_case("sphere-" + std::to_string(20 * (1 << (2 * splits))), scene, view);
+  out.sweep = "faces";
+  out.group = "sphere";
   return out;
 }
 

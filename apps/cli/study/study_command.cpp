@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/study/peers/embree_loop.h"
 #include "apps/cli/study/study.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
@@ -29,7 +30,14 @@ struct Arguments {
   CommonOptions common;
   StudyOptions study;
   std::string size;
+  bool peers = false;
 };
+
+/// Once a process. They are methods of this command alone.
+void register_peers() {
+  static const bool once = (register_method(embree_loop()), true);
+  static_cast<void>(once);
+}
 
 void require_scenes(const StudyOptions& study) {
   for (std::size_t i = 0; i < study.scenes.size(); ++i) {
@@ -43,6 +51,7 @@ void require_scenes(const StudyOptions& study) {
 
 void run(Arguments& arguments, const CLI::App& command) {
   StudyOptions& study = arguments.study;
+  if (arguments.peers) register_peers();
   require_scenes(study);
   if (study.quick) {
     study.view = kQuickView;
@@ -92,6 +101,10 @@ void add_study_command(CLI::App& app) {
       ->capture_default_str();
   command.add_flag("!--no-memory", study.memory,
                    "Do not measure memory, for which each row draws a frame alone");
+  command.add_flag("--growth", study.growth,
+                   "Also how time grows: with light and size of the first scene, with the faces of a sphere");
+  command.add_flag("--peers", arguments->peers,
+                   "Also a plain loop over Embree's rays, as its tutorial has it");
   command.add_option("--commit", study.commit, "What the page says of the program's sources")
       ->type_name("TEXT");
   add_common_options(command, arguments->common);

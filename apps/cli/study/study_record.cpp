@@ -37,6 +37,7 @@ constexpr Column kColumns[] = {
     {"width", "/width"},
     {"height", "/height"},
     {"light_scale", "/light_scale"},
+    {"sweep", "/sweep"},
     {"caster_faces", "/caster_faces"},
     {"method", "/method"},
     {"setting", "/label"},

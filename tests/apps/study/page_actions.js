@@ -42,6 +42,8 @@
     for (const method of methods) check(inPlot.has(rgb(Study.colorOf(method))), `no mark of ${method} in the plot`);
     check(get("short").textContent.includes("fastest"), "nothing in short");
     check(get("choice").querySelectorAll("tbody tr").length === Study.scenes.length + 1, "a line a scene in the table");
+    check(get("holders").querySelectorAll(".bar-line button").length >= Study.scenes.length, "no method in the bars");
+    check(Study.csv().trim().split("\n").length === Study.rows.length + 1, "a line a row in the CSV");
     check(document.documentElement.scrollWidth <= innerWidth, `the page is ${document.documentElement.scrollWidth} wide, the window ${innerWidth}`);
 
     // A click on each point of a scene shows that row, and its difference has what the numbers say.

@@ -48,6 +48,7 @@
   const drawTables = () => {
     Study.fillShort(get("short"), view);
     Study.fillChoice(get("choice"), view, document.querySelector("input[name=budget]:checked").value, pickPoint);
+    Study.fillHolders(get("holders"), view, pickPoint);
     Study.fillRows(get("rows"), rowsInView(), pick);
   };
   const drawAll = () => {
@@ -108,6 +109,11 @@
     setTheme(matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
     get("theme").addEventListener("click", () => { setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"); drawAll(); });
     fillAbout();
+    get("csv").addEventListener("click", () => {
+      const link = Study.element("a", { download: "study.csv", href: URL.createObjectURL(new Blob([Study.csv()], { type: "text/csv" })) });
+      link.click();
+      URL.revokeObjectURL(link.href);
+    });
     if (Study.scenes.length === 0) return;
     const scenes = Study.scenes.map(seen => [seen.id, seen.scene]);
     fillSelect("scene", Study.scenes.length > 1 ? [[OVER_ALL, "all scenes"], ...scenes] : scenes, "scene");

@@ -24,6 +24,17 @@ Study.drawMark = (ctx, method, x, y, r, filled = true) => {
   ctx.stroke();
 };
 
+/** 1, 2 and 5 times powers of 10 between the ends; where these are many, the powers alone. */
+const ticksBetween = (low, high) => {
+  const digits = Math.log10(high / low) > 3.5 ? [1] : [1, 2, 5], out = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power)
+    for (const digit of digits) {
+      const tick = Number((digit * 10 ** power).toPrecision(3));
+      if (tick >= low && tick <= high) out.push(tick);
+    }
+  return out;
+};
+
 /** Ends of a logarithmic axis around the values. */
 const rangeAround = values => {
   const low = Math.min(...values), high = Math.max(...values);
@@ -47,7 +58,8 @@ Study.makePlot = (place, points, settings) => {
   const axis = (label, size) => ({
     label, size, stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, labelSize: 22, font: "12px system-ui",
     labelFont: "13px system-ui",
-    values: (u, splits) => splits.map(v => v === null ? null : Study.digits(v, 2)),
+    splits: (u, index, low, high) => ticksBetween(low, high), filter: (u, splits) => splits,
+    values: (u, splits) => splits.map(v => Study.digits(v, 2)),
   });
   let active = -1;
 

@@ -54,6 +54,26 @@ Study.fillChoice = (place, view, kind, onPick) => {
   place.replaceChildren(Study.element("table", {}, Study.element("thead", {}, head), Study.element("tbody", {}, ...body)));
 };
 
+/** For each scene a line from 5 ms to 1 s: which method is the most accurate within the time. */
+Study.fillHolders = (place, view, onPick) => {
+  const [from, to] = [5, 1000], at = ms => 100 * Math.log(ms / from) / Math.log(to / from);
+  const line = points => {
+    const front = Study.frontOf(points), bar = Study.element("div", { class: "bar-line" });
+    front.forEach((point, k) => {
+      const left = Math.max(0, at(point.x)), right = Math.min(100, k + 1 < front.length ? at(front[k + 1].x) : 100);
+      if (right <= left) return;
+      const error = Study.errorText(point.below ? 0 : point.y);
+      bar.append(Study.element("button", { type: "button", style: `left: ${left}%; width: ${right - left}%; background: ${Study.colorOf(point.method)}`,
+        title: `${point.label}: ${Study.ms(point.x)}, error ${error}`, onclick: () => onPick(point) }, `${point.method} ${error}`));
+    });
+    return bar;
+  };
+  const lines = Study.scenes.flatMap(seen => [Study.element("span", {}, seen.scene), line(Study.pointsOf(seen.rows, view))]);
+  const ticks = [5, 10, 20, 50, 100, 200, 500, 1000].map(ms => Study.element("span", { style: `left: ${at(ms)}%` }, Study.ms(ms)));
+  place.className = "holders";
+  place.replaceChildren(...lines, Study.element("span", {}, ""), Study.element("div", { class: "bar-ticks" }, ...ticks));
+};
+
 const COLUMNS = [
   ["setting", r => r.label],
   ["frame", r => Study.ms(r.frame_ms.median)],
@@ -72,6 +92,13 @@ const COLUMNS = [
   ["wrong certificates", r => r.error.certificates ? `${r.error.certificates.contradicted} of ${r.error.certificates.pixels}` : "–"],
   ["memory, MiB", r => r.peak_mib ? Study.digits(r.peak_mib) : "–"],
 ];
+
+/** All rows as the table has them. */
+Study.csv = () => {
+  const quoted = text => `"${String(text).replaceAll('"', '""')}"`;
+  const lines = Study.rows.map(row => [row.case, ...COLUMNS.map(([name, of]) => of(row))].map(quoted).join(","));
+  return [["case", ...COLUMNS.map(([name]) => name)].map(quoted).join(","), ...lines].join("\n") + "\n";
+};
 
 Study.fillRows = (place, rows, onPick) => {
   const sorted = [...rows].sort((a, b) => a.frame_ms.median - b.frame_ms.median);
