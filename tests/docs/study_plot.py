@@ -2,7 +2,8 @@
 
 usage: study_plot.py study.csv plot.svg
 
-A point is a setting that every scene has: the geometric mean of frame times, the root mean square of errors.
+A point is a setting that every scene has: the geometric mean of frame times, the root mean square of errors. Where the interval
+of an RMSE reaches 0 its upper end counts.
 """
 import csv
 import math
@@ -17,12 +18,16 @@ OTHERS = ["#8a5a32", "#c4569b", "#5b6ee1"]
 LEAST = 1e-5
 
 
+def error_of(row):
+    return float(row["rmse"] if float(row["rmse_low"]) > 0 else row["rmse_high"])
+
+
 def points_of(rows):
     scenes = {row["scene"] for row in rows}
     by_setting = defaultdict(dict)
     for row in rows:
         if row["frame_ms"] and row["rmse"]:
-            by_setting[row["method"], row["setting"]][row["scene"]] = (float(row["frame_ms"]), float(row["rmse"]))
+            by_setting[row["method"], row["setting"]][row["scene"]] = (float(row["frame_ms"]), error_of(row))
     for (method, setting), values in by_setting.items():
         if set(values) == scenes:
             times, errors = zip(*values.values())

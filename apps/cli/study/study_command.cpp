@@ -55,6 +55,7 @@ void run(Arguments& arguments, const CLI::App& command) {
   require_scenes(study);
   if (study.quick) {
     study.view = kQuickView;
+    study.memory = false;
     study.judge.resample = false;
     study.judge.double_pixels = kQuickDoublePixels;
     study.judge.double_samples = kQuickDoubleSamples;

@@ -54,7 +54,7 @@
         const before = shownRow();
         const near = Study.mainPlot.points.filter(p => p !== point && Math.hypot(
           Study.mainPlot.valToPos(p.x, "x") - Study.mainPlot.valToPos(point.x, "x"),
-          Study.mainPlot.valToPos(p.y, "y") - Study.mainPlot.valToPos(point.y, "y")) < 1);
+          Study.mainPlot.valToPos(p.y, "y") - Study.mainPlot.valToPos(point.y, "y")) < 3);  // events have whole pixels
         if (near.length > 0 || before === point.row.key) continue;
         click(Study.mainPlot, point);
         await until(() => shownRow() !== before, `a click on ${point.label} shows something`);

@@ -15,7 +15,7 @@ Study.ERRORS = {
 };
 Study.AREAS = { penumbra: "where the shadow is soft", all: "all" };
 
-// Errors below this are drawn at it: the axis is logarithmic, and references have noise.
+// Errors below this are drawn at it: the axis is logarithmic.
 Study.FLOOR = 1e-5;
 
 Study.rows = Study.rows.filter(row => !row.refused);
@@ -24,15 +24,24 @@ Study.rows.forEach(row => { row.seen = Study.cases.find(seen => seen.id === row.
 Study.scenes = Study.cases.filter(seen => !seen.sweep && seen.rows.length > 0);
 Study.methods = [...new Set(Study.rows.map(row => row.method))];
 
-/** The chosen error of a row; undefined where the row has none. */
-Study.errorOf = (row, view) => view.error === "flip" ? row.error.flip : row.error[view.area][view.error];
+/**
+ * The chosen error of a row: {value, below}; undefined where the row has none. An RMSE whose interval reaches 0 is less than
+ * the references can tell: its value is then the interval's upper end, and it is `below` that.
+ */
+Study.errorOf = (row, view) => {
+  if (view.error === "flip") return row.error.flip === undefined ? undefined : { value: Math.max(Study.FLOOR, row.error.flip), below: row.error.flip < Study.FLOOR };
+  const figures = row.error[view.area], value = figures[view.error];
+  const untold = view.error === "rmse" && figures.rmse_low === 0;
+  return { value: Math.max(Study.FLOOR, untold ? figures.rmse_high : value), below: untold || value < Study.FLOOR };
+};
+Study.rmseText = row => Study.errorText(Study.errorOf(row, { error: "rmse", area: "penumbra" }));
 Study.timeOf = (row, view) => Study.TIMES[view.time].of(row);
 
 /** Points of a plot: {x, y, row, label, method, below}. */
 Study.pointsOf = (rows, view) => rows.flatMap(row => {
   const x = Study.timeOf(row, view), error = Study.errorOf(row, view);
   if (!(x > 0) || error === undefined || view.hidden.has(row.method)) return [];
-  return [{ x, y: Math.max(error, Study.FLOOR), below: error < Study.FLOOR, row, label: row.label, method: row.method }];
+  return [{ x, y: error.value, below: error.below, row, label: row.label, method: row.method }];
 });
 
 /** One point a setting that every scene has: geometric mean of times, root mean square of errors. */
@@ -44,10 +53,8 @@ Study.pointsOverAll = view => {
     const points = Study.pointsOf(rows, view);
     if (points.length < Study.scenes.length) return [];
     const mean = f => points.reduce((sum, p) => sum + f(p), 0) / points.length;
-    const error = p => p.below ? 0 : p.y;
-    const y = Math.sqrt(mean(p => error(p) ** 2));
-    const worst = points.reduce((a, b) => error(a) >= error(b) ? a : b);
-    return [{ x: Math.exp(mean(p => Math.log(p.x))), y: Math.max(y, Study.FLOOR), below: y < Study.FLOOR,
+    const worst = points.reduce((a, b) => a.y >= b.y ? a : b);
+    return [{ x: Math.exp(mean(p => Math.log(p.x))), y: Math.sqrt(mean(p => p.y ** 2)), below: points.every(p => p.below),
               row: worst.row, label: worst.label, method: worst.method, scenes: points.length }];
   });
 };
@@ -70,7 +77,8 @@ Study.digits = (value, count = 3) => {
   return Math.abs(text) < 1e-4 ? text.toExponential() : String(text);
 };
 Study.ms = value => value >= 1000 ? `${Study.digits(value / 1000)} s` : `${Study.digits(value)} ms`;
-Study.errorText = value => value < Study.FLOOR ? "< 0.00001" : Study.digits(value);
+/** Of a point or of what errorOf gives. */
+Study.errorText = ({ y, value = y, below }) => (below ? "≤ " : "") + Study.digits(value, below ? 2 : 3);
 
 Study.element = (name, attributes = {}, ...children) => {
   const node = document.createElement(name);

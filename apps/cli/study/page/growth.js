@@ -20,7 +20,7 @@ Study.fillGrowth = (place, view) => {
       place.append(Study.element("div", {}, Study.element("h3", {}, `${group}: ${title}`), box));
       plots.push(() => Study.makePlot(box, points, {
         height: 240, xLabel: title, yLabel: "ms", small: true, lines: true,
-        tip: p => [Study.element("b", {}, p.label), `${Study.digits(p.x)}: ${Study.ms(p.y)}, RMSE ${Study.errorText(p.row.error.penumbra.rmse)}`],
+        tip: p => [Study.element("b", {}, p.label), `${Study.digits(p.x)}: ${Study.ms(p.y)}, RMSE ${Study.rmseText(p.row)}`],
       }));
     }
   }

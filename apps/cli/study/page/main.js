@@ -13,13 +13,13 @@
     const { row } = point;
     const where = point.scenes ? `mean of ${point.scenes} scenes` : row.scene;
     const lines = [Study.element("b", {}, Study.chip(point.method), point.label), `${where}: ${Study.ms(point.x)}, `,
-      `${Study.ERRORS[view.error].title} ${Study.errorText(point.below ? 0 : point.y)}`];
+      `${Study.ERRORS[view.error].title} ${Study.errorText(point)}`];
     if (point.scenes) lines.push(Study.element("span", { class: "small" }, `worst on ${row.scene}`));
     else lines.push(Study.element("span", { class: "small" },
       `a quarter of the frames below ${Study.digits(row.frame_ms.low)} ms, a quarter above ${Study.digits(row.frame_ms.high)} ms`));
     return lines;
   };
-  const say = point => { get("said").textContent = `${point.label}: ${Study.ms(point.x)}, error ${Study.errorText(point.below ? 0 : point.y)}`; };
+  const say = point => { get("said").textContent = `${point.label}: ${Study.ms(point.x)}, error ${Study.errorText(point)}`; };
 
   const pick = async row => {
     chosen = row;
@@ -97,6 +97,7 @@
       `Times are medians of ${frames} warm frames; settings are run in turn. A whole frame is what the camera sees, visibility and shading.`,
       `Errors are of the fraction of the light that a pixel sees, against two independent references of ${samples} rays a pixel each; their noise is taken out of the RMSE.` +
         (resampled ? " The worst pixels were traced again with 65,536 rays before the 99 of 100 and the largest are stated." : " The 99 of 100 and the largest contain it."),
+      `An RMSE after ≤, a hollow mark in the plots, is the upper end of its 95% interval, which reaches 0: the references cannot tell it from 0.`,
       `Where the shadow is soft: pixels at which the references see part of the light.`,
       pixels > 0 ? `At ${pixels} pixels a scene, chosen by chance, rays in double that share nothing with the methods judge as well.` : "",
       `A certificate is a pixel of which a method says that it is wholly lit or wholly dark; 256 rays a pixel contradict the wrong ones.`,

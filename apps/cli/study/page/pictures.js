@@ -11,8 +11,11 @@
   /** The bytes of an embedded PNG: {width, height, data}, four bytes a pixel. */
   const decode = async name => {
     const image = new Image();
-    image.src = `data:image/png;base64,${Study.pictures[name]}`;
-    await image.decode();
+    await new Promise((resolve, reject) => {
+      image.onload = resolve;
+      image.onerror = () => reject(new Error(`picture ${name} cannot be read`));
+      image.src = `data:image/png;base64,${Study.pictures[name]}`;
+    });
     const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
     const context = canvas.getContext("2d", { willReadFrequently: true });
     context.drawImage(image, 0, 0);
@@ -192,7 +195,7 @@
     draw();
     if (probed) probe(probed.x, probed.y);
     else document.getElementById("probe").textContent = "Point at a pixel for its numbers. Wheel or pinch zooms, dragging moves; all three follow.";
-    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame, RMSE ${Study.errorText(row.error.penumbra.rmse)} where the shadow is soft.`;
+    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame, RMSE ${Study.rmseText(row)} where the shadow is soft.`;
     document.getElementById("pictures").dataset.row = row.key;
   };
 })();

@@ -43,7 +43,7 @@ Study.fillChoice = (place, view, kind, onPick) => {
     ...budgets.map(b => Study.element("th", { scope: "col" }, kind === "error" ? String(b) : Study.ms(b))));
   const cell = (point) => {
     if (!point) return Study.element("td", {}, "–");
-    const result = kind === "error" ? Study.ms(point.x) : Study.errorText(point.below ? 0 : point.y);
+    const result = kind === "error" ? Study.ms(point.x) : Study.errorText(point);
     return Study.element("td", {}, Study.element("button", { type: "button", onclick: () => onPick(point) },
       Study.chip(point.method), point.method, Study.element("span", { class: "small" }, `${result}, ${Study.settingOf(point.label)}`)));
   };
@@ -62,7 +62,7 @@ Study.fillHolders = (place, view, onPick) => {
     front.forEach((point, k) => {
       const left = Math.max(0, at(point.x)), right = Math.min(100, k + 1 < front.length ? at(front[k + 1].x) : 100);
       if (right <= left) return;
-      const error = Study.errorText(point.below ? 0 : point.y);
+      const error = Study.errorText(point);
       bar.append(Study.element("button", { type: "button", style: `left: ${left}%; width: ${right - left}%; background: ${Study.colorOf(point.method)}`,
         title: `${point.label}: ${Study.ms(point.x)}, error ${error}`, onclick: () => onPick(point) }, `${point.method} ${error}`));
     });
@@ -80,15 +80,15 @@ const COLUMNS = [
   ["quartiles", r => `${Study.digits(r.frame_ms.low)}–${Study.digits(r.frame_ms.high)}`],
   ["times the default", r => r.over_default ? Study.digits(r.over_default.median) : "–"],
   ["visibility", r => Study.ms(r.visibility_ms)],
-  ["RMSE", r => Study.errorText(r.error.penumbra.rmse)],
+  ["RMSE", r => Study.rmseText(r)],
   ["95% interval", r => `${Study.digits(r.error.penumbra.rmse_low, 2)}–${Study.digits(r.error.penumbra.rmse_high, 2)}`],
   ["mean", r => Study.digits(r.error.penumbra.mean, 2)],
   ["median", r => Study.digits(r.error.penumbra.median, 2)],
   ["p99", r => Study.digits(r.error.penumbra.p99, 2)],
   ["largest", r => Study.digits(r.error.penumbra.max, 2)],
-  ["RMSE, all pixels", r => Study.errorText(r.error.all.rmse)],
+  ["RMSE, all pixels", r => Study.errorText(Study.errorOf(r, { error: "rmse", area: "all" }))],
   ["FLIP", r => r.error.flip === undefined ? "–" : Study.digits(r.error.flip, 2)],
-  ["RMSE by double", r => r.error.double ? Study.errorText(r.error.double.penumbra.rmse) : "–"],
+  ["RMSE by double", r => r.error.double ? Study.digits(r.error.double.penumbra.rmse) : "–"],
   ["wrong certificates", r => r.error.certificates ? `${r.error.certificates.contradicted} of ${r.error.certificates.pixels}` : "–"],
   ["memory, MiB", r => r.peak_mib ? Study.digits(r.peak_mib) : "–"],
 ];
