@@ -76,6 +76,19 @@ std::vector<Setting> varied_alone(const Setting& usual, const std::vector<Option
   return out;
 }
 
+/// Whether a number is above its default: dear settings are varied alone.
+bool is_dearer(const OptionValue& value, const OptionValue& usual) {
+  const auto* a = std::get_if<std::uint64_t>(&value);
+  const auto* b = std::get_if<std::uint64_t>(&usual);
+  return a && b && *a > *b;
+}
+
+bool is_dearer(const Setting& setting, const Setting& usual) {
+  return std::ranges::any_of(setting.options, [&](const auto& option) {
+    return is_dearer(option.second, usual.options.at(option.first));
+  });
+}
+
 std::vector<Setting> combined(const Setting& usual, const std::vector<OptionSteps>& steps) {
   std::vector<Setting> out{usual};
   for (const OptionSteps& option : steps) {
@@ -89,6 +102,7 @@ std::vector<Setting> combined(const Setting& usual, const std::vector<OptionStep
       }
     out = std::move(more);
   }
+  std::erase_if(out, [&](const Setting& s) { return s.varied == "several" && is_dearer(s, usual); });
   return out;
 }
 
@@ -96,10 +110,17 @@ std::vector<Setting> combined(const Setting& usual, const std::vector<OptionStep
 
 std::string Setting::label() const {
   std::string text = method;
-  for (const OptionSchema& option : method_named(method).options) {
+  const auto add = [&text](const std::string& name, const OptionValue& value) {
+    text += ", " + name + " " + penumbra::to_text(value);
+  };
+  const auto known = std::ranges::find(methods(), method, &MethodInfo::name);
+  if (known == methods().end()) {
+    for (const auto& [name, value] : options) add(name, value);
+    return text;
+  }
+  for (const OptionSchema& option : known->options) {
     const auto value = options.find(option.name);
-    if (value != options.end() && value->second != option.usual)
-      text += ", " + option.name + " " + penumbra::to_text(value->second);
+    if (value != options.end() && value->second != option.usual) add(option.name, value->second);
   }
   return text;
 }

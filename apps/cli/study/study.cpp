@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "apps/cli/study/peers/povray.h"
 #include "apps/cli/study/settings.h"
 #include "apps/cli/study/study_page.h"
 #include "apps/cli/study/study_pictures.h"
@@ -22,6 +23,8 @@ using nlohmann::json;
 
 /// Rows that are timed in turn.
 constexpr std::size_t kGroup = 6;
+/// Milliseconds of a frame: of rows that take longer it is not measured, which would take as long again.
+constexpr double kMostForMemory = 1'000.0;
 /// Of the cases that show how cost grows.
 constexpr int kGrowthSamples = 1'024, kSpheres = 4;
 
@@ -91,6 +94,9 @@ class CaseStudy {
                  const std::vector<float>& reference) const;
   json row_of(const Setting& setting, const Measured& measured, const Renderer& renderer, CaseJudge& judge);
   void measure(Renderer& renderer, CaseJudge& judge, std::span<const Setting> settings);
+  /// Those that are no methods, in pictures of their own.
+  std::vector<Setting> missing_peers() const;
+  std::size_t measure_peers(Renderer& renderer, CaseJudge& judge, std::span<const Setting> settings);
 
   StudyRecord& record_;
   const StudyOptions& options_;
@@ -155,7 +161,7 @@ json CaseStudy::row_of(const Setting& setting, const Measured& measured, const R
   row["stages"] = to_json(measured.stages);
   row["visibility_ms"] = visibility_ms(measured.stages);
   if (!measured.renderer.empty()) row["renderer"] = measured.renderer;
-  if (options_.memory && case_.sweep.empty())
+  if (options_.memory && case_.sweep.empty() && quartiles_of(measured.frames).median < kMostForMemory)
     if (const auto peak = peak_memory(scene_path_.string(), case_.view, setting)) row["peak_mib"] = *peak;
   const Verdict verdict = judge.judge(measured);
   row["error"] = to_json(verdict);
@@ -176,9 +182,31 @@ void CaseStudy::measure(Renderer& renderer, CaseJudge& judge, std::span<const Se
     record_.add_row(rounded(row_of(settings[k], measured[k], renderer, judge)));
 }
 
+std::vector<Setting> CaseStudy::missing_peers() const {
+  if (!options_.peers || !case_.sweep.empty() || !options_.methods.empty()) return {};
+  std::vector<Setting> missing = povray_settings();
+  std::erase_if(missing, [&](const Setting& setting) { return record_.has_row(key_of(setting)); });
+  return missing;
+}
+
+std::size_t CaseStudy::measure_peers(Renderer& renderer, CaseJudge& judge,
+                                     std::span<const Setting> settings) {
+  std::size_t count = 0;
+  for (const Setting& setting : settings) {
+    auto measured =
+        measure_povray(case_, setting, options_.rounds, used_threads(options_.judge.threads), lit_.image);
+    if (!measured) break;
+    const Image shaded = renderer.shade_again({measured->visibility});
+    for (const char* channel : {"R", "G", "B"}) measured->image.channels[channel] = shaded.at(channel);
+    record_.add_row(rounded(row_of(setting, *measured, renderer, judge)));
+    ++count;
+  }
+  return count;
+}
+
 std::size_t CaseStudy::run(const Progress& progress) {
-  const std::vector<Setting> missing = missing_settings();
-  if (missing.empty()) return 0;
+  const std::vector<Setting> missing = missing_settings(), peers = missing_peers();
+  if (missing.empty() && (peers.empty() || !has_povray())) return 0;
   Renderer renderer(case_.scene, options_.judge.threads);
   CaseJudge judge(case_, options_.judge);
   begin(renderer);
@@ -186,7 +214,7 @@ std::size_t CaseStudy::run(const Progress& progress) {
     report(progress, static_cast<double>(from) / static_cast<double>(missing.size()));
     measure(renderer, judge, std::span(missing).subspan(from, std::min(kGroup, missing.size() - from)));
   }
-  return missing.size();
+  return missing.size() + measure_peers(renderer, judge, peers);
 }
 
 /// Errors are of less interest where cost is: fewer rays, none in double.

@@ -27,6 +27,8 @@ struct StudyOptions {
   bool memory = true;
   /// Also how cost grows: of the first scene with its light and with the picture's size, and of a sphere with its faces.
   bool growth = false;
+  /// Also what people use instead (peers/). Those that are methods are to be registered before.
+  bool peers = false;
   /// What the page says of the program's sources.
   std::string commit{};
 };

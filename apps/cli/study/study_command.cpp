@@ -30,7 +30,6 @@ struct Arguments {
   CommonOptions common;
   StudyOptions study;
   std::string size;
-  bool peers = false;
 };
 
 /// Once a process. They are methods of this command alone.
@@ -51,7 +50,7 @@ void require_scenes(const StudyOptions& study) {
 
 void run(Arguments& arguments, const CLI::App& command) {
   StudyOptions& study = arguments.study;
-  if (arguments.peers) register_peers();
+  if (study.peers) register_peers();
   require_scenes(study);
   if (study.quick) {
     study.view = kQuickView;
@@ -104,8 +103,9 @@ void add_study_command(CLI::App& app) {
                    "Do not measure memory, for which each row draws a frame alone");
   command.add_flag("--growth", study.growth,
                    "Also how time grows: with light and size of the first scene, with the faces of a sphere");
-  command.add_flag("--peers", arguments->peers,
-                   "Also a plain loop over Embree's rays, as its tutorial has it");
+  command.add_flag(
+      "--peers", study.peers,
+      "Also a plain loop over Embree's rays, as its tutorial has it, and POV-Ray where it is installed");
   command.add_option("--commit", study.commit, "What the page says of the program's sources")
       ->type_name("TEXT");
   add_common_options(command, arguments->common);

@@ -132,6 +132,8 @@ class EmbreeLoop : public Method {
 
 MethodInfo embree_loop() {
   std::vector<OptionSchema> options = sampling_options();
+  options.front().steps = std::vector<OptionValue>{std::uint64_t{1}, std::uint64_t{4}, std::uint64_t{16},
+                                                   std::uint64_t{64}, std::uint64_t{256}};
   options.push_back({.name = "embree-near",
                      .domain = RealRange{0.0, 1.0},
                      .usual = 0.001,
