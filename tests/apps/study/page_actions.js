@@ -19,8 +19,10 @@
   const rgb = text => {
     const context = document.createElement("canvas").getContext("2d");
     context.fillStyle = text;
-    return [1, 3, 5].map(k => parseInt(context.fillStyle.slice(k, k + 2), 16)).join(",");
+    return [1, 3, 5].map(k => parseInt(context.fillStyle.slice(k, k + 2), 16));
   };
+  // Marks beside the front are see-through, and a canvas rounds their colors.
+  const has = (seen, color) => [...seen].some(text => text.split(",").every((value, k) => Math.abs(value - color[k]) <= 8));
   const click = (plot, point) => {
     const box = plot.over.getBoundingClientRect();
     const at = { clientX: box.left + plot.valToPos(point.x, "x"), clientY: box.top + plot.valToPos(point.y, "y"), bubbles: true };
@@ -39,7 +41,7 @@
     check(document.querySelectorAll("#scenes .uplot").length === Study.scenes.length, "one plot a scene");
     const methods = new Set(Study.rows.map(row => row.method));
     const inPlot = colors(get("plot").querySelector("canvas"));
-    for (const method of methods) check(inPlot.has(rgb(Study.colorOf(method))), `no mark of ${method} in the plot`);
+    for (const method of methods) check(has(inPlot, rgb(Study.colorOf(method))), `no mark of ${method} in the plot`);
     check(get("short").textContent.includes("fastest"), "nothing in short");
     check(get("choice").querySelectorAll("tbody tr").length === Study.scenes.length + 1, "a line a scene in the table");
     check(get("holders").querySelectorAll(".bar-line button").length >= Study.scenes.length, "no method in the bars");

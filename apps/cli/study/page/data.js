@@ -24,15 +24,18 @@ Study.rows.forEach(row => { row.seen = Study.cases.find(seen => seen.id === row.
 Study.scenes = Study.cases.filter(seen => !seen.sweep && seen.rows.length > 0);
 Study.methods = [...new Set(Study.rows.map(row => row.method))];
 
+/** The least RMSE that two references tell from 0: n stratified rays are off by .4 n^-3/4, and the mean is over many pixels. */
+Study.leastRmse = (samples, pixels) => .4 * samples ** -.75 / pixels ** .25;
+
 /**
  * The chosen error of a row: {value, below}; undefined where the row has none. An RMSE whose interval reaches 0 is less than
- * the references can tell: its value is then the interval's upper end, and it is `below` that.
+ * the references can tell: its value is then the interval's upper end, or what they can tell at best, and it is `below` that.
  */
 Study.errorOf = (row, view) => {
   if (view.error === "flip") return row.error.flip === undefined ? undefined : { value: Math.max(Study.FLOOR, row.error.flip), below: row.error.flip < Study.FLOOR };
   const figures = row.error[view.area], value = figures[view.error];
   const untold = view.error === "rmse" && figures.rmse_low === 0;
-  return { value: Math.max(Study.FLOOR, untold ? figures.rmse_high : value), below: untold || value < Study.FLOOR };
+  return { value: Math.max(Study.FLOOR, untold ? Math.max(figures.rmse_high, Study.leastRmse(row.error.samples, figures.pixels)) : value), below: untold || value < Study.FLOOR };
 };
 Study.rmseText = row => Study.errorText(Study.errorOf(row, { error: "rmse", area: "penumbra" }));
 Study.timeOf = (row, view) => Study.TIMES[view.time].of(row);
@@ -76,6 +79,8 @@ Study.digits = (value, count = 3) => {
   const text = Number(value.toPrecision(count));
   return Math.abs(text) < 1e-4 ? text.toExponential() : String(text);
 };
+/** Of an axis: "50", "20k", "1M". */
+Study.short = value => value >= 1e6 ? `${value / 1e6}M` : value >= 1e4 ? `${value / 1e3}k` : Study.digits(value, 2);
 Study.ms = value => value >= 1000 ? `${Study.digits(value / 1000)} s` : `${Study.digits(value)} ms`;
 /** Of a point or of what errorOf gives. */
 Study.errorText = ({ y, value = y, below }) => (below ? "≤ " : "") + Study.digits(value, below ? 2 : 3);

@@ -97,7 +97,7 @@
       `Times are medians of ${frames} warm frames; settings are run in turn. A whole frame is what the camera sees, visibility and shading.`,
       `Errors are of the fraction of the light that a pixel sees, against two independent references of ${samples} rays a pixel each; their noise is taken out of the RMSE.` +
         (resampled ? " The worst pixels were traced again with 65,536 rays before the 99 of 100 and the largest are stated." : " The 99 of 100 and the largest contain it."),
-      `An RMSE after ≤, a hollow mark in the plots, is the upper end of its 95% interval, which reaches 0: the references cannot tell it from 0.`,
+      `An RMSE after ≤, a hollow mark in the plots, is the upper end of its 95% interval, or what the references can tell from 0 at best: they cannot tell it from 0.`,
       `Where the shadow is soft: pixels at which the references see part of the light.`,
       pixels > 0 ? `At ${pixels} pixels a scene, chosen by chance, rays in double that share nothing with the methods judge as well.` : "",
       `A certificate is a pixel of which a method says that it is wholly lit or wholly dark; 256 rays a pixel contradict the wrong ones.`,

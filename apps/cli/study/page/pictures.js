@@ -107,7 +107,7 @@
     const certificate = ["not certified", "certified lit", "certified in umbra"][numbers.certificate[i]];
     document.getElementById("probe").textContent = Number.isNaN(error)
       ? `Pixel ${probed.x * step}, ${probed.y * step}: no surface.`
-      : `Pixel ${probed.x * step}, ${probed.y * step}: ${row.method} sees ${(reference + error).toFixed(4)} of the light, the reference ` +
+      : `Pixel ${probed.x * step}, ${probed.y * step}: by ${row.method} it sees ${(reference + error).toFixed(4)} of the light, by the reference ` +
         `${reference.toFixed(4)}; error ${error >= 0 ? "+" : "−"}${Study.digits(Math.abs(error), 2)}; ${certificate}.`;
     draw();
   };
@@ -195,7 +195,8 @@
     draw();
     if (probed) probe(probed.x, probed.y);
     else document.getElementById("probe").textContent = "Point at a pixel for its numbers. Wheel or pinch zooms, dragging moves; all three follow.";
-    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame, RMSE ${Study.rmseText(row)} where the shadow is soft.`;
+    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame, RMSE ${Study.rmseText(row)} where the shadow is soft. ` +
+      `Stages, ms: ${Object.entries(row.stages).map(([stage, ms]) => `${stage.replaceAll("_", " ")} ${Study.digits(ms, 2)}`).join(", ")}.`;
     document.getElementById("pictures").dataset.row = row.key;
   };
 })();

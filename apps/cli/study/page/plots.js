@@ -24,9 +24,9 @@ Study.drawMark = (ctx, method, x, y, r, filled = true) => {
   ctx.stroke();
 };
 
-/** 1, 2 and 5 times powers of 10 between the ends; where these are many, the powers alone. */
-const ticksBetween = (low, high) => {
-  const digits = Math.log10(high / low) > 3.5 ? [1] : [1, 2, 5], out = [];
+/** 1, 2 and 5 times powers of 10 between the ends; where there is no room for these, the powers alone. */
+const ticksBetween = (low, high, pixels) => {
+  const digits = Math.log10(high / low) * 3 > pixels / 36 ? [1] : [1, 2, 5], out = [];
   for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); ++power)
     for (const digit of digits) {
       const tick = Number((digit * 10 ** power).toPrecision(3));
@@ -58,8 +58,8 @@ Study.makePlot = (place, points, settings) => {
   const axis = (label, size) => ({
     label, size, stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, labelSize: 22, font: "12px system-ui",
     labelFont: "13px system-ui",
-    splits: (u, index, low, high) => ticksBetween(low, high), filter: (u, splits) => splits,
-    values: (u, splits) => splits.map(v => Study.digits(v, 2)),
+    splits: (u, index, low, high) => ticksBetween(low, high, index === 0 ? u.bbox.width / devicePixelRatio : 1.6 * u.bbox.height / devicePixelRatio),
+    filter: (u, splits) => splits, values: (u, splits) => splits.map(Study.short),
   });
   let active = -1;
 

@@ -19,18 +19,16 @@ Study.fillShort = (place, view) => {
     const counts = new Map();
     for (const seen of Study.scenes) {
       const best = Study.bestOf(Study.pointsOf(seen.rows, view), "error", budget);
-      const name = best ? best.method : "no method";
-      const entry = counts.get(name) || { scenes: 0, times: [] };
-      entry.scenes += 1;
-      if (best) entry.times.push(best.x);
-      counts.set(name, entry);
+      if (best) counts.set(best.method, [...(counts.get(best.method) || []), best.x]);
     }
-    const item = Study.element("li", {}, `Within an error of ${budget} the fastest is `);
-    [...counts.entries()].sort((a, b) => b[1].scenes - a[1].scenes).forEach(([name, { scenes, times }], k) => {
-      const span = times.length === 0 ? "" : Math.min(...times) === Math.max(...times) ? ` (${Study.ms(times[0])})`
-        : ` (${Study.ms(Math.min(...times))} to ${Study.ms(Math.max(...times))})`;
-      item.append(k > 0 ? ", " : "", Study.element("b", {}, name), ` on ${scenes} of ${Study.scenes.length} scenes${span}`);
+    const all = Study.scenes.length, reached = [...counts.values()].flat().length;
+    const range = times => [...new Set([Study.ms(Math.min(...times)), Study.ms(Math.max(...times))])].join(" to ");
+    const item = Study.element("li", {}, `Within an error of ${budget} `);
+    if (counts.size > 0) item.append("the fastest is ");
+    [...counts.entries()].sort((a, b) => b[1].length - a[1].length).forEach(([method, times], k) => {
+      item.append(k > 0 ? ", " : "", Study.element("b", {}, method), ` on ${times.length} of ${all} ${all > 1 ? "scenes" : "scene"} (${range(times)})`);
     });
+    if (reached < all) item.append(`${counts.size > 0 ? "; " : ""}none is known to be on ${all - reached} of ${all}`);
     item.append(".");
     list.append(item);
   }
