@@ -63,3 +63,13 @@ endfunction()
 add_library(penumbra_internal INTERFACE)
 target_include_directories(penumbra_internal INTERFACE ${PROJECT_SOURCE_DIR})
 target_link_libraries(penumbra_internal INTERFACE penumbra_flags)
+
+# penumbra_embed(OUT HEADER NAMESPACE FUNCTION FILES...): a rule that writes the files as constants into the source file OUT, so
+# that a program finds them wherever it runs: NAMESPACE::FUNCTION(name), which HEADER declares.
+function(penumbra_embed out header namespace function)
+  add_custom_command(
+    OUTPUT ${out}
+    COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DHEADER=${header} -DNAMESPACE=${namespace} -DFUNCTION=${function}
+            "-DFILES=${ARGN}" -P ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake
+    DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/EmbedText.cmake VERBATIM)
+endfunction()

@@ -61,6 +61,7 @@ int run_command_line(int argc, char** argv) {
   add_inspect_command(app);
   add_classify_command(app);
   add_compare_command(app);
+  add_study_command(app);
   add_methods_command(app);
   return run_guarded([&] { return parse_and_run(app, argc, argv); });
 }

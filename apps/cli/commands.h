@@ -14,6 +14,7 @@ void add_field_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_classify_command(CLI::App& app);
 void add_compare_command(CLI::App& app);
+void add_study_command(CLI::App& app);
 void add_methods_command(CLI::App& app);
 
 }  // namespace penumbra::apps

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -96,7 +97,13 @@ std::vector<std::uint32_t> worst_pixels(const std::vector<float>& method, const 
   return pixels;
 }
 
-void set_figures(Comparison& comparison, const std::vector<float>& method, const References& references) {
+/// Progress on a terminal, unless nobody is to see it.
+Progress shown(ProgressLine& line, bool quiet) {
+  return quiet ? Progress{} : line.callback();
+}
+
+void set_figures(Comparison& comparison, const std::vector<float>& method, const References& references,
+                 bool quiet) {
   comparison.reference.resize(method.size());
   for (std::size_t i = 0; i < method.size(); ++i)
     comparison.reference[i] = 0.5f * references.first[i] + 0.5f * references.second[i];
@@ -105,7 +112,7 @@ void set_figures(Comparison& comparison, const std::vector<float>& method, const
   comparison.penumbra = true_penumbra(references.first, references.second, comparison.judged);
   ProgressLine progress("error figures");
   const auto figures = [&](const std::vector<std::uint32_t>& pixels) {
-    return error_figures(method, references.first, references.second, pixels, progress.callback());
+    return error_figures(method, references.first, references.second, pixels, shown(progress, quiet));
   };
   comparison.all = figures(comparison.judged);
   comparison.in_penumbra = figures(comparison.penumbra);
@@ -114,7 +121,7 @@ void set_figures(Comparison& comparison, const std::vector<float>& method, const
 // The largest errors are those in which the reference's noise had a share: only p99 and the maximum are
 // corrected, since replacing chosen pixels would bias the means.
 void resample_worst(Comparison& comparison, const std::vector<float>& method, References references,
-                    const Trace& trace, const Resampling& resampling) {
+                    const Trace& trace, const Resampling& resampling, bool quiet) {
   const std::vector<std::uint32_t> pixels = worst_pixels(method, comparison, resampling);
   const std::vector<float> values = trace(pixels, resampling.samples, kSeeds[2], "worst pixels again");
   for (std::size_t k = 0; k < pixels.size(); ++k)
@@ -122,7 +129,7 @@ void resample_worst(Comparison& comparison, const std::vector<float>& method, Re
   const auto correct = [&](ErrorFigures& figures, const std::vector<std::uint32_t>& selected) {
     ProgressLine progress("error figures");
     const ErrorFigures again =
-        error_figures(method, references.first, references.second, selected, progress.callback());
+        error_figures(method, references.first, references.second, selected, shown(progress, quiet));
     figures.p99_absolute = again.p99_absolute;
     figures.max_absolute = again.max_absolute;
   };
@@ -167,7 +174,7 @@ Comparison compare_images(const Image& image, const Image& reference, const Judg
                      std::to_string(comparison.skipped) + " pixels; render both from one scene");
   receivers(reference, {std::nullopt, judged.light});  // refuses visibility that is not finite
   const std::string channel = judged.channel();
-  set_figures(comparison, image.at(channel), {reference.at(channel), reference.at(channel)});
+  set_figures(comparison, image.at(channel), {reference.at(channel), reference.at(channel)}, false);
   return comparison;
 }
 
@@ -182,6 +189,9 @@ struct SceneComparison::State {
   void keep_those_of_scene(Comparison& comparison, const Image& image) const;
   std::vector<float> trace(const std::vector<std::uint32_t>& pixels, int samples, std::uint64_t seed,
                            const std::string& label);
+  /// The same, of pixels of which some were asked for before: those are not traced again.
+  std::vector<float> trace_again(const std::vector<std::uint32_t>& pixels, int samples, std::uint64_t seed,
+                                 const std::string& label);
   void trace_references(const std::vector<std::uint32_t>& pixels);
   void check_certificates(Comparison& comparison, const Image& image) const;
 
@@ -196,6 +206,7 @@ struct SceneComparison::State {
   std::vector<std::uint32_t> chosen_;  // by the oracle, ascending
   References references_;
   std::vector<bool> traced_;
+  std::map<std::uint32_t, float> traced_again_;  // of the worst pixels of every image so far
   std::size_t rays_traced_ = 0;
 };
 
@@ -241,15 +252,28 @@ void SceneComparison::State::keep_those_of_scene(Comparison& comparison, const I
 
 std::vector<float> SceneComparison::State::trace(const std::vector<std::uint32_t>& pixels, int samples,
                                                  std::uint64_t seed, const std::string& label) {
-  ProgressLine progress(label);
+  ProgressLine line(label);
+  const Progress progress = shown(line, options_.quiet);
   if (judge_) {
     rays_traced_ += pixels.size() * static_cast<std::size_t>(samples);
-    return judge_->visibility(surface_, pixels, samples, seed, progress.callback());
+    return judge_->visibility(surface_, pixels, samples, seed, progress);
   }
   ReferenceResult result = trace_reference(*rays_, scene_.lights[light_].shape, surface_.receivers(), pixels,
-                                           {.samples = samples, .seed = seed}, false, progress.callback());
+                                           {.samples = samples, .seed = seed}, false, progress);
   rays_traced_ += result.rays;
   return std::move(result.visibility);
+}
+
+std::vector<float> SceneComparison::State::trace_again(const std::vector<std::uint32_t>& pixels, int samples,
+                                                       std::uint64_t seed, const std::string& label) {
+  std::vector<std::uint32_t> missing;
+  std::ranges::copy_if(pixels, std::back_inserter(missing),
+                       [&](std::uint32_t i) { return !traced_again_.contains(i); });
+  const std::vector<float> values = trace(missing, samples, seed, label);
+  for (std::size_t k = 0; k < missing.size(); ++k) traced_again_[missing[k]] = values[k];
+  std::vector<float> out;
+  for (const std::uint32_t i : pixels) out.push_back(traced_again_.at(i));
+  return out;
 }
 
 void SceneComparison::State::trace_references(const std::vector<std::uint32_t>& pixels) {
@@ -272,10 +296,10 @@ void SceneComparison::State::check_certificates(Comparison& comparison, const Im
   const std::vector<float>& region = image.at(channel);
   comparison.certified = static_cast<std::size_t>(std::ranges::count_if(
       comparison.judged, [&](std::uint32_t i) { return region[i] == 0.0f || region[i] == 2.0f; }));
-  ProgressLine progress("certificates");
+  ProgressLine line("certificates");
   comparison.contradicted = judge_
                                 ->contradicted(surface_, comparison.judged, region, kCertificateSamples,
-                                               kSeeds[2], progress.callback())
+                                               kSeeds[2], shown(line, options_.quiet))
                                 .size();
 }
 
@@ -294,11 +318,12 @@ Comparison SceneComparison::State::compare(const Image& image) {
   trace_references(comparison.judged);
   const std::vector<float>& method = image.at(judged_.channel());
   comparison.samples = options_.samples;
-  set_figures(comparison, method, references_);
-  if (!comparison.penumbra.empty())
+  set_figures(comparison, method, references_, options_.quiet);
+  if (options_.resample && !comparison.penumbra.empty())
     resample_worst(
-        comparison, method, references_, [this](const auto&... what) { return trace(what...); },
-        judge_ ? kByOracle : kByRays);
+        comparison, method, references_,
+        [this](const auto& pixels, auto... how) { return trace_again(pixels, how...); },
+        judge_ ? kByOracle : kByRays, options_.quiet);
   check_certificates(comparison, image);
   const auto now = std::chrono::steady_clock::now();
   comparison.rays = std::exchange(rays_traced_, 0);

@@ -47,6 +47,10 @@ struct TraceOptions {
   std::size_t oracle_pixels = 0;
   /// The oracle looks at these pixels instead, ascending, where there are any.
   std::vector<std::uint32_t> pixels{};
+  /// Whether the worst pixels are sampled again before p99 and maximum are stated; else the references' noise is in them.
+  bool resample = true;
+  /// Nothing is shown of how far it is.
+  bool quiet = false;
 };
 
 /// Images of one scene, one light and one size against two references. Pixels that one image has asked for are not traced

@@ -1,5 +1,7 @@
 #include "apps/common/stats.h"
 
+#include "apps/common/machine.h"
+
 namespace penumbra::apps {
 namespace {
 
@@ -42,7 +44,8 @@ nlohmann::json stats_of(const RenderResult& result, int threads) {
                          {"threads", threads},
                          {"antialias", result.antialias},
                          {"scene_faces", result.scene_faces},
-                         {"renderer", renderer_of(result.lights.front(), threads)}};
+                         {"renderer", renderer_of(result.lights.front(), threads)},
+                         {"peak_memory_bytes", peak_memory_bytes()}};
   if (result.lights.size() == 1) {
     json["counts"] = to_json(result.lights.front().counts);
   } else {

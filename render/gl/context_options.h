@@ -13,7 +13,8 @@ inline OptionSchema backend_option() {
           .domain = WordChoice{{name_of(Backend::kOsMesa), name_of(Backend::kEgl)}},
           .usual = std::string(name_of(Backend::kOsMesa)),
           .unit = {},
-          .help = "OpenGL without a window"};
+          .help = "OpenGL without a window",
+          .steps = std::vector<OptionValue>{}};
 }
 
 }  // namespace penumbra::gl

@@ -81,7 +81,8 @@ std::vector<OptionSchema> sampling_options() {
            .domain = IntegerRange{0, std::numeric_limits<std::uint64_t>::max()},
            .usual = usual.seed,
            .unit = {},
-           .help = "Two seeds give two independent images"}};
+           .help = "Two seeds give two independent images",
+           .steps = std::vector<OptionValue>{}}};
 }
 
 ReferenceOptions sampling_of(const OptionValues& options) {

@@ -4,6 +4,7 @@
 #include "render/rays/point_light.h"
 #include "render/rays/ray_methods.h"
 #include "render/rays/reference.h"
+#include "render/silhouette/denoise.h"
 #include "render/silhouette/edge_hierarchies.h"
 #include "render/silhouette/silhouette_visibility.h"
 
@@ -37,6 +38,19 @@ Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
           {"bytes", c.bytes},
           {"hierarchy_bytes", c.hierarchy_bytes},
           {"open", open}};
+}
+
+constexpr const char* kAtrous = "a-trous";
+
+std::vector<OptionSchema> rays_options() {
+  std::vector<OptionSchema> options = sampling_options();
+  options.push_back(
+      {.name = "denoise",
+       .domain = WordChoice{{"off", kAtrous}},
+       .usual = std::string("off"),
+       .unit = {},
+       .help = "A filter over a picture's pixels, guided by position and normal, for few rays"});
+  return options;
 }
 
 /// What both methods share: hierarchies over edges, which serve every light.
@@ -101,10 +115,15 @@ class RaysMethod : public BySilhouettes {
     for (std::size_t i = 0; i < seen.open.size(); ++i) seen.visibility[seen.open[i]] = traced.visibility[i];
     seen.counts.rays += traced.rays;
     clock.finish("rays");
+    if (word_of(input.options, "denoise") == kAtrous) {
+      seen.visibility = denoise(input.receivers, seen.visibility, seen.open,
+                                {.samples = sampling_of(input.options).samples}, input.rays.arena());
+      clock.finish("denoise");
+    }
     out.visibility = std::move(seen.visibility);
     out.region = std::move(seen.region);
     out.stages = std::move(seen.stages);
-    out.stages.push_back(clock.stages().front());
+    out.stages.insert(out.stages.end(), clock.stages().begin(), clock.stages().end());
     out.counts = to_counts(seen.counts, seen.open.size());
   }
 };
@@ -142,7 +161,7 @@ MethodInfo rays_method() {
           .summary = "stratified rays, only where nothing is certified",
           .takes_distant = true,
           .certifies = true,
-          .options = sampling_options(),
+          .options = rays_options(),
           .make = [](const Scene& objects) { return std::make_unique<RaysMethod>(objects); }};
 }
 

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <ostream>
 #include <stdexcept>
-#include <thread>
 
+#include "apps/common/machine.h"
 #include "mesh/io/write_file.h"
 
 namespace penumbra::bench {
@@ -21,27 +21,6 @@ std::string today() {
   char text[16];
   std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
   return text;
-}
-
-/// "model name" of /proc/cpuinfo.
-std::string processor() {
-  std::ifstream in("/proc/cpuinfo");
-  for (std::string line; std::getline(in, line);) {
-    if (line.rfind("model name", 0) != 0) continue;
-    const std::size_t start = line.find(": ");
-    if (start != std::string::npos) return line.substr(start + 2);
-  }
-  return "unknown";
-}
-
-const char* instruction_set() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return "AVX-512";
-  if (__builtin_cpu_supports("avx2")) return "AVX2";
-  return "SSE2";
-#else
-  return "unknown";
-#endif
 }
 
 nlohmann::json read_record(const std::filesystem::path& path) {
@@ -113,7 +92,7 @@ void Record::add(const std::string& name, const std::string& unit, double value)
 
 void Record::write(const std::filesystem::path& path, const std::string& commit) const {
   nlohmann::json record = read_record(path);
-  const nlohmann::json machine = describe_machine();
+  const nlohmann::json machine = apps::describe_machine();
   if (record.contains("machine") && record["machine"]["processor"] != machine["processor"])
     throw std::runtime_error(path.string() + ": was measured on another processor; choose another name");
   record["machine"] = machine;
@@ -121,12 +100,6 @@ void Record::write(const std::filesystem::path& path, const std::string& commit)
   for (const auto& [part, figures] : parts_.items())
     record["parts"][part] = {{"commit", commit}, {"date", today()}, {"figures", figures}};
   penumbra::write_file(path, [&](std::ostream& out) { write_lines(out, record); });
-}
-
-nlohmann::json describe_machine() {
-  return {{"processor", processor()},
-          {"cores", std::thread::hardware_concurrency()},
-          {"instruction_set", instruction_set()}};
 }
 
 }  // namespace penumbra::bench

@@ -37,7 +37,4 @@ class Record {
   std::string part_, renderer_;
 };
 
-/// Processor, cores and the widest vectors that it has.
-nlohmann::json describe_machine();
-
 }  // namespace penumbra::bench

@@ -75,7 +75,7 @@ const std::vector<Rule>& rules() {
        {"volumes/classify.cpp", "OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh", false}},
       {"CGAL", "(volumes/predicates/|volumes/cells/half_spaces\\.|volumes/cells/solid_shape\\.|volumes/checks/|tests/)",
        kAlone, "<CGAL/", {"volumes/cells/convex_cell.cpp", "CGAL/Gmpq.h", false}},
-      {"Embree", "render/rays/", kAlone, "<embree\\d*/", {"render/receivers/receivers.cpp", "embree3/rtcore.h", false}},
+      {"Embree", "(render/rays/|apps/cli/study/peers/)", kAlone, "<embree\\d*/", {"render/receivers/receivers.cpp", "embree3/rtcore.h", false}},
       {"Embree's part of the ray scene", "render/rays/", kAlone, "render/rays/ray_scene_impl\\.",
        {"render/silhouette/passes.cpp", "render/rays/ray_scene_impl.h"}},
       {"OpenGL", "render/gl/", kAlone, "<(GL|EGL|KHR)/", {"render/d_buffer/d_buffer.cpp", "GL/glcorearb.h", false}},

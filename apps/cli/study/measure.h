@@ -1,0 +1,50 @@
+// study, step 2: frames of several settings, timed in turn.
+//
+// What is compared is run in turn: in every round each setting draws one frame, and the default method one beside it, so
+// that a busy minute falls on all of them and ratios are of pairs. Before a timed frame of less than a third of a second
+// the same frame is drawn once without being timed, since buffers and caches were another setting's.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/cli/study/settings.h"
+#include "apps/cli/study/study_case.h"
+#include "penumbra/render/renderer.h"
+
+namespace penumbra::apps {
+
+struct Measured {
+  /// Milliseconds of whole frames, one a round.
+  std::vector<double> frames;
+  /// The same over the default method's frame of the same round.
+  std::vector<double> over_default;
+  /// Medians.
+  StageTimes stages;
+  Image image;
+  std::vector<float> visibility;
+  std::vector<std::int8_t> region;
+  std::string renderer;
+  Counts counts;
+  /// Set where the method refused: its message. All else is then empty.
+  std::string refused;
+};
+
+/// The middle of the values, and where a quarter of them lies below and above; zeros where there are none.
+struct Quartiles {
+  double low = 0.0, median = 0.0, high = 0.0;
+};
+Quartiles quartiles_of(std::vector<double> values);
+
+/// One warm-up frame each, then `rounds` rounds. `renderer` has the case's scene. Throws Cancelled.
+std::vector<Measured> measure_in_turn(Renderer& renderer, const StudyView& view,
+                                      std::span<const Setting> settings, int rounds);
+
+/// Largest resident size, in MiB, of a program of its own that draws one frame: `penumbra render` with this scene, size and
+/// setting. Nothing where that program could not be run.
+std::optional<double> peak_memory(const std::string& scene_path, const StudyView& view,
+                                  const Setting& setting);
+
+}  // namespace penumbra::apps

@@ -1,0 +1,10 @@
+# Writes every file of FILES as a raw string into OUT, behind NAMESPACE::FUNCTION(name), which HEADER declares.
+set(text "#include <string_view>\n#include <stdexcept>\n#include <string>\n\n#include \"${HEADER}\"\n\n")
+string(APPEND text "namespace ${NAMESPACE} {\n\nstd::string_view ${FUNCTION}(std::string_view name) {\n")
+foreach(file IN LISTS FILES)
+  get_filename_component(name ${file} NAME)
+  file(READ ${file} content)
+  string(APPEND text "  if (name == \"${name}\") return R\"embedded(${content})embedded\";\n")
+endforeach()
+string(APPEND text "  throw std::logic_error(\"no text \" + std::string(name));\n}\n\n}  // namespace ${NAMESPACE}\n")
+file(WRITE ${OUT} "${text}")
