@@ -95,8 +95,7 @@ bool is_spoiled(const SolidMesh& mesh) {
   const FaceBoxes tree(boxes);
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     const auto c = corners(i);
-    const Vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
-    if (!tree.for_each(boxes[i], n, glm::dot(n, c[0]), [&](std::uint32_t k) {
+    if (!tree.for_each(boxes[i], [&](std::uint32_t k) {
           return k == i || !are_in_conflict(c, mesh.triangles[i], corners(k), mesh.triangles[k]);
         }))
       return true;
