@@ -124,6 +124,7 @@ std::optional<SolidMesh> mesh_convex_shadow(const SolidMeshRequest& request) {
   }
   clock.finish("convex");
   if (out.triangles.empty()) return std::nullopt;
+  for (const char cap : out.is_cap) out.is_proved.push_back(cap ? 0 : 1);
   out.to_prove = out.proved = static_cast<std::size_t>(std::ranges::count(out.is_cap, char{0}));
   out.stages = clock.stages();
   return out;
