@@ -58,6 +58,7 @@ int run_command_line(int argc, char** argv) {
   add_render_command(app);
   add_volumes_command(app);
   add_field_command(app);
+  add_section_command(app);
   add_inspect_command(app);
   add_classify_command(app);
   add_compare_command(app);

@@ -11,6 +11,7 @@ namespace penumbra::apps {
 void add_render_command(CLI::App& app);
 void add_volumes_command(CLI::App& app);
 void add_field_command(CLI::App& app);
+void add_section_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_classify_command(CLI::App& app);
 void add_compare_command(CLI::App& app);

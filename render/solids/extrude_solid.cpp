@@ -62,10 +62,12 @@ ShadowSolid solid_of(detail::SolidMesh mesh, const SolidOptions& options) {
   out.mesh.triangles = std::move(mesh.triangles);
   for (const char cap : mesh.is_cap)
     out.mesh.tags.push_back({cap ? ShadowKind::kFarCap : ShadowKind::kSolid, 0, options.object});
+  out.is_proved = std::move(mesh.is_proved);
   out.proved = mesh.proved;
   out.to_prove = mesh.to_prove;
-  out.mesh.guarantee =
-      out.to_prove > 0 && out.proved == out.to_prove ? Guarantee::kCertified : Guarantee::kWithin;
+  out.mesh.guarantee = !options.hollow && out.to_prove > 0 && out.proved == out.to_prove
+                           ? Guarantee::kCertified
+                           : Guarantee::kWithin;
   out.grid_triangles = mesh.grid_triangles;
   out.spacing = mesh.spacing;
   out.grid_points = mesh.grid_points;
@@ -98,6 +100,7 @@ ShadowSolid extrude_solid(const Casters& casters, const LightShape& light, const
                                          .level = level.fraction,
                                          .bound = bound,
                                          .tolerance = tolerance,
+                                         .hollow = options.hollow,
                                          .judge = judge_of(casters, umbra ? enlarged(light) : light),
                                          .progress = options.progress};
   ShadowSolid out =

@@ -31,6 +31,8 @@ struct SolidOptions {
   double tolerance = 0.0;
   /// The solid ends there. It must hold the casters. Empty: their box, grown by its diagonal on all sides.
   Bounds bound{};
+  /// Leaves out the bodies of casters, as far as they are closed. Bodies thinner than a grid's cell may stay. The guarantee is kWithin.
+  bool hollow = false;
   /// Written to tags.
   std::uint32_t object = 0;
   Progress progress{};
@@ -44,6 +46,8 @@ struct ShadowSolid {
   double volume = 0.0, area = 0.0;
   /// Triangles that are proved to be on the safe side, of those that are no far caps.
   std::size_t proved = 0, to_prove = 0;
+  /// One a triangle: it is proved.
+  std::vector<char> is_proved;
   /// Of the surface before it was simplified.
   std::size_t grid_triangles = 0;
   std::size_t grid_points = 0, evaluations = 0;
@@ -56,7 +60,7 @@ struct ShadowSolid {
 /// 2000, section 3). Cost: the grid and one call for visibility at each of its points near the surface, and some twenty points a
 /// triangle; on all threads but for simplification. Seconds at the usual tolerance; triangles grow like 1 / tolerance².
 ///
-/// The bodies of the casters belong to umbra and penumbra. What is on the light's plane or behind it does not. Deterministic.
+/// The bodies of the casters belong to umbra and penumbra, unless they are left out. What is on the light's plane or behind it does not. Deterministic.
 /// Throws UsageError for a rectangle, options outside their domain, or a tolerance so small that the grid does not fit;
 /// Cancelled.
 ShadowSolid extrude_solid(const Casters& casters, const LightShape& light, const ShadowLevel& level,

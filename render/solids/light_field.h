@@ -28,8 +28,10 @@ LightField light_field(const Casters& casters, const LightShape& light, const Bo
 /// The extensions that write_light_field knows: lower case, with the dot.
 std::vector<std::string_view> light_field_extensions();
 
-/// Writes what the extension names: VTK's image data (.vti) or an array for NumPy (.npy) of shape (z, y, x), float32. The file is
-/// written whole or not at all. Throws UsageError for another extension, SystemError where writing fails.
+/// Writes what the extension names: VTK's image data (.vti); an array for NumPy (.npy) of shape (z, y, x), float32; or a grid `seen` of
+/// OpenVDB (.vdb) with background 1, tiles where 0 or 1 fills them, and the field's place in space. The file is written whole or not at
+/// all. Throws UsageError for another extension, and for .vdb where the library was built without OpenVDB; SystemError where
+/// writing fails.
 void write_light_field(const std::filesystem::path& path, const LightField& field);
 
 }  // namespace penumbra

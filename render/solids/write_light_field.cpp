@@ -2,11 +2,13 @@
 #include <cstdint>
 #include <ostream>
 #include <sstream>
+#include <utility>
 
 #include "mesh/io/formats.h"
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/solids/light_field.h"
+#include "render/solids/write_vdb.h"
 
 namespace penumbra {
 namespace {
@@ -56,15 +58,18 @@ void write_vti(std::ostream& out, const LightField& field) {
 }  // namespace
 
 std::vector<std::string_view> light_field_extensions() {
-  return {".vti", ".npy"};
+  return {".vti", ".npy", ".vdb"};
 }
 
 void write_light_field(const std::filesystem::path& path, const LightField& field) {
   const std::string extension = detail::lower_extension(path);
-  if (extension != ".vti" && extension != ".npy")
-    throw UsageError(path.string() + ": fields are written as .vti or .npy; choose one of these extensions");
-  write_file(path,
-             [&](std::ostream& out) { extension == ".npy" ? write_npy(out, field) : write_vti(out, field); });
+  using Write = void (*)(std::ostream&, const LightField&);
+  const std::pair<std::string_view, Write> formats[] = {
+      {".vti", write_vti}, {".npy", write_npy}, {".vdb", detail::write_vdb}};
+  for (const auto& [known, write] : formats)
+    if (extension == known) return write_file(path, [&](std::ostream& out) { write(out, field); });
+  throw UsageError(path.string() +
+                   ": fields are written as .vti, .npy or .vdb; choose one of these extensions");
 }
 
 }  // namespace penumbra

@@ -113,6 +113,9 @@ void bench_occlusion_textures(Record& record, const SceneNames&);
 /// price_bench.cpp: what exact classification costs, and what plain arithmetic gets wrong.
 void bench_price(Record& record, const SceneNames&);
 
+/// solids_bench.cpp: umbra and penumbra solids, judged by rays in double; minutes a scene.
+void bench_solids(Record& record, const SceneNames& scenes);
+
 /// volumes_bench.cpp: cells, triangles and time of penumbra and umbra volumes.
 void bench_volumes(Record& record, const SceneNames& scenes);
 

@@ -1,8 +1,6 @@
 #include "volumes/solids/carve.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 namespace penumbra::detail {
 namespace {
@@ -67,20 +65,56 @@ std::vector<std::size_t> changed(const GridSurface& surface, const CrossedEdges&
   return out;
 }
 
+/// What was found of the points of a surface's triangles, for the next surface on the same grid.
+class KnownPoints {
+ public:
+  /// Of triangles of a surface that follows. A point that had no fault hardly ever has one after it has moved to the safe side, so
+  /// it is tried again only with the proofs.
+  TrianglePoints::Known of(const GridSurface& surface, std::span<const std::size_t> which) const {
+    TrianglePoints::Known out(which.size(), 0);
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      if (which[i] >= surface.inner_triangles) continue;
+      const auto at = std::ranges::lower_bound(names_, surface.names[which[i]]);
+      if (at != names_.end() && *at == surface.names[which[i]])
+        out[i] = known_[static_cast<std::size_t>(at - names_.begin())];
+    }
+    return out;
+  }
+  /// Triangles that were not looked at have no fault.
+  void remember(const GridSurface& surface, std::span<const std::size_t> which,
+                const TrianglePoints::Known& found) {
+    names_ = surface.names;
+    known_.assign(names_.size(), TrianglePoints::kWhole);
+    for (std::size_t i = 0; i < which.size(); ++i)
+      if (which[i] < names_.size()) known_[which[i]] = found[i];
+  }
+
+ private:
+  std::vector<std::uint64_t> names_;
+  TrianglePoints::Known known_;
+};
+
 }  // namespace
 
 GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& request,
                   const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress) {
   const bool umbra = request.region == ShadowRegion::kUmbra;
   Carver carver(grid, edges, umbra);
+  KnownPoints points;
   for (bool proofs = !umbra;;) {
     GridSurface surface = grid_surface(edges, umbra ? Diagonals::kSmaller : Diagonals::kLarger);
     const std::vector<std::size_t> which = changed(surface, edges, umbra);
     std::vector<IndexedTriangle> triangles;
     for (const std::size_t i : which) triangles.push_back(surface.triangles[i]);
     const TriangleJudge::Surface part{surface.positions, triangles};
-    const TriangleJudge::Faults faults =
-        proofs ? judge.try_proofs(part, evaluations) : judge.try_points(part, evaluations);
+    TriangleJudge::Faults faults;
+    if (proofs) {
+      faults = judge.try_proofs(part, evaluations);
+    } else {
+      TrianglePoints::Known known = points.of(surface, which);
+      faults = judge.try_middles(part, known, evaluations);
+      points.remember(surface, which, known);
+    }
     report(progress,
            (proofs ? 0.5 : 0.0) + 0.5 * (1.0 - static_cast<double>(which.size()) /
                                                    static_cast<double>(surface.triangles.size() + 1)));

@@ -4,6 +4,7 @@
 #include "volumes/solids/grid_surface.h"
 #include "volumes/solids/shafts/caster_tree.h"
 #include "volumes/solids/solid_mesher.h"
+#include "volumes/solids/triangle_points.h"
 
 namespace penumbra::detail {
 
@@ -18,9 +19,10 @@ class TriangleJudge {
     std::span<const Vec3> positions;
     std::span<const IndexedTriangle> triangles;
   };
-  /// Corners, middles of sides and of triangles are tried, each once. Of an umbra.
-  Faults try_points(const Surface& surface, std::size_t& evaluations) const;
-  /// Shafts are tried; where they prove nothing of an umbra, many points. `evaluations` grows by the points.
+  /// Corners, middles of sides and of triangles are tried, each once, but for those that are known. Of an umbra. `known`: what is
+  /// known to have no fault before, and then after. `evaluations` grows by the points.
+  Faults try_middles(const Surface& surface, TrianglePoints::Known& known, std::size_t& evaluations) const;
+  /// Shafts are tried; where they prove nothing of an umbra, many points.
   Faults try_proofs(const Surface& surface, std::size_t& evaluations) const;
   /// One a triangle: it is proved. `depth`: see HiddenProof.
   std::vector<char> prove(const Surface& surface, int depth) const;

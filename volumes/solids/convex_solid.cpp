@@ -95,8 +95,7 @@ bool is_spoiled(const SolidMesh& mesh) {
   const FaceBoxes tree(boxes);
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
     const auto c = corners(i);
-    const Vec3 n = glm::cross(c[1] - c[0], c[2] - c[0]);
-    if (!tree.for_each(boxes[i], n, glm::dot(n, c[0]), [&](std::uint32_t k) {
+    if (!tree.for_each(boxes[i], [&](std::uint32_t k) {
           return k == i || !are_in_conflict(c, mesh.triangles[i], corners(k), mesh.triangles[k]);
         }))
       return true;
@@ -125,6 +124,7 @@ std::optional<SolidMesh> mesh_convex_shadow(const SolidMeshRequest& request) {
   }
   clock.finish("convex");
   if (out.triangles.empty()) return std::nullopt;
+  for (const char cap : out.is_cap) out.is_proved.push_back(cap ? 0 : 1);
   out.to_prove = out.proved = static_cast<std::size_t>(std::ranges::count(out.is_cap, char{0}));
   out.stages = clock.stages();
   return out;

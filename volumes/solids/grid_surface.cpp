@@ -29,6 +29,7 @@ class Builder {
     for (const Part& part : parts) {
       out_.triangles.insert(out_.triangles.end(), part.triangles.begin(), part.triangles.end());
       out_.fourth.insert(out_.fourth.end(), part.fourth.begin(), part.fourth.end());
+      out_.names.insert(out_.names.end(), part.names.begin(), part.names.end());
     }
     out_.inner_triangles = out_.triangles.size();
     add_caps();
@@ -39,9 +40,11 @@ class Builder {
   struct Part {
     std::vector<IndexedTriangle> triangles;
     std::vector<std::uint32_t> fourth;
-    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t other) {
+    std::vector<std::uint64_t> names;
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t other, std::uint64_t name) {
       triangles.push_back({a, b, c});
       fourth.push_back(other);
+      names.push_back(name);
     }
   };
 
@@ -54,16 +57,19 @@ class Builder {
       inside |= grid_.is_inside(corners[b]) ? 1u << b : 0u;
     }
     if (inside == 0 || inside == 255) return;
-    const auto on = [&](unsigned p, unsigned q) { return number(corners[p & q], p ^ q); };
-    for (const auto& t : kTetrahedra) add_tetrahedron(t, inside, on, out);
+    const auto on = [&](unsigned p, unsigned q) { return edge(corners[p & q], p ^ q); };
+    std::uint64_t number = std::uint64_t{6} * v;
+    for (const auto& t : kTetrahedra) add_tetrahedron(t, number++, inside, on, out);
   }
 
   template <class On>
-  void add_tetrahedron(const unsigned (&t)[4], unsigned inside, const On& on, Part& out) const {
+  void add_tetrahedron(const unsigned (&t)[4], std::uint64_t number, unsigned inside, const On& on,
+                       Part& out) const {
     unsigned mask = 0;
     for (unsigned k = 0; k < 4; ++k) mask |= (inside >> t[k] & 1) << k;
     const int count = std::popcount(mask);
     if (count == 0 || count == 4) return;
+    const std::uint64_t name = (number << 4 | mask) << 2;
     // Even permutations that bring the odd one, or the two inside, to the front.
     constexpr unsigned kFront[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
     constexpr unsigned kPairs[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2},
@@ -73,9 +79,9 @@ class Builder {
       const auto& p = kFront[odd];
       const std::uint32_t x = on(t[p[0]], t[p[1]]), y = on(t[p[0]], t[p[2]]), z = on(t[p[0]], t[p[3]]);
       if (count == 1)
-        out.add(x, y, z, x);
+        out.add(x, y, z, x, name);
       else
-        out.add(x, z, y, x);
+        out.add(x, z, y, x, name);
       return;
     }
     for (const auto& p : kPairs) {
@@ -86,17 +92,17 @@ class Builder {
       const Vec3 normal = glm::cross(at[ad] - at[ac], at[bd] - at[ac]);
       const bool is_ridge = glm::dot(normal, at[bc] - at[ac]) < 0.0;  // the side between ac and bd
       if (is_ridge == (diagonals_ == Diagonals::kLarger)) {
-        out.add(ac, ad, bd, bc);
-        out.add(ac, bd, bc, ad);
+        out.add(ac, ad, bd, bc, name);
+        out.add(ac, bd, bc, ad, name + 1);
       } else {
-        out.add(ac, ad, bc, bd);
-        out.add(ad, bd, bc, ac);
+        out.add(ac, ad, bc, bd, name + 2);
+        out.add(ad, bd, bc, ac, name + 3);
       }
     }
   }
 
   /// Of the edge between two of a cube's corners, one of which lies below the other.
-  std::uint32_t number(std::uint32_t from, unsigned bits) const { return edges_.number(from, bits); }
+  std::uint32_t edge(std::uint32_t from, unsigned bits) const { return edges_.number(from, bits); }
 
   void add_caps() {
     const GridIndex& n = grid_.counts();
@@ -130,7 +136,7 @@ class Builder {
       const std::uint32_t here = grid_.beyond(corner, p), next = grid_.beyond(corner, q);
       if (grid_.is_inside(here)) polygon[count++] = cap_point(here);
       if (grid_.is_inside(here) != grid_.is_inside(next))
-        polygon[count++] = number(grid_.beyond(corner, p & q), p ^ q);
+        polygon[count++] = edge(grid_.beyond(corner, p & q), p ^ q);
     }
     for (std::size_t k = 2; k < count; ++k)
       out_.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});

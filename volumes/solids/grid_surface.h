@@ -36,6 +36,9 @@ struct GridSurface {
   std::vector<IndexedTriangle> triangles;
   /// One a triangle that lies inside of the grid: a vertex on which its shape depends as well as on its corners.
   std::vector<std::uint32_t> fourth;
+  /// One a triangle that lies inside of the grid, ascending. Triangles of two surfaces on one grid that have the same name have their
+  /// corners on the same edges.
+  std::vector<std::uint64_t> names;
   /// The first so many lie inside of the grid, the rest in caps.
   std::size_t inner_triangles = 0;
 };

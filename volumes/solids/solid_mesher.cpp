@@ -8,6 +8,7 @@
 
 #include "volumes/solids/carve.h"
 #include "volumes/solids/convex_solid.h"
+#include "volumes/solids/hollow.h"
 #include "volumes/solids/shafts/shadow_box.h"
 #include "volumes/solids/simplify/simplify.h"
 
@@ -62,8 +63,15 @@ class Mesher {
       }
     }
     clock_.finish("carving");
+    if (request_.hollow) {
+      leave_out_bodies(grid, edges, request_);
+      surface = grid_surface(
+          edges, request_.region == ShadowRegion::kUmbra ? Diagonals::kSmaller : Diagonals::kLarger);
+      clock_.finish("bodies");
+    }
     take(std::move(surface), grid.box());
     clock_.finish("simplification");
+    out_.is_proved.assign(out_.triangles.size(), 0);
     if (request_.region != ShadowRegion::kLevel) prove();
     clock_.finish("proof");
     return finish();
@@ -249,10 +257,15 @@ class Mesher {
 
   void prove() {
     std::vector<IndexedTriangle> triangles;
-    for (std::size_t i = 0; i < out_.triangles.size(); ++i)
-      if (!out_.is_cap[i]) triangles.push_back(out_.triangles[i]);
+    std::vector<std::size_t> which;
+    for (std::size_t i = 0; i < out_.triangles.size(); ++i) {
+      if (out_.is_cap[i]) continue;
+      which.push_back(i);
+      triangles.push_back(out_.triangles[i]);
+    }
     const std::vector<char> proved =
         TriangleJudge(request_, tree_).prove({out_.positions, triangles}, kProofDepth);
+    for (std::size_t i = 0; i < which.size(); ++i) out_.is_proved[which[i]] = proved[i];
     out_.to_prove = triangles.size();
     out_.proved = static_cast<std::size_t>(std::count(proved.begin(), proved.end(), char{1}));
   }
@@ -281,7 +294,8 @@ class Mesher {
 }  // namespace
 
 SolidMesh mesh_shadow(const SolidMeshRequest& request) {
-  if (std::optional<SolidMesh> convex = mesh_convex_shadow(request)) return std::move(*convex);
+  if (!request.hollow)
+    if (std::optional<SolidMesh> convex = mesh_convex_shadow(request)) return std::move(*convex);
   return Mesher(request).run();
 }
 

@@ -4,6 +4,7 @@
 //   SolidGrid       a grid there; each point is judged           (the caller's judgment)
 //   CrossedEdges    edges between inside and outside, bisected   (the caller's judgment)
 //   carve           vertices moved along their edges until every triangle is on the safe side (shafts of triangles)
+//   leave_out_bodies  where hollow solids are asked for
 //   simplify        fewer triangles, moved to the safe side only
 //
 // Containment is a property of triangles. Let S be a closed surface and x a point inside that sees a point p of the light, which is
@@ -40,6 +41,8 @@ struct SolidMeshRequest {
   Bounds bound;
   /// Scene units: detail of this size is kept.
   double tolerance = 0.0;
+  /// Bodies of casters do not belong to the region.
+  bool hollow = false;
   JudgePoints judge;
   Progress progress{};
 };
@@ -49,6 +52,8 @@ struct SolidMesh {
   std::vector<IndexedTriangle> triangles;
   /// One a triangle: it lies in the bound's boundary or in the light's plane.
   std::vector<char> is_cap;
+  /// One a triangle: it is proved.
+  std::vector<char> is_proved;
   /// Of the triangles that are not caps, those proved to be wholly in umbra, or wholly lit. All of them: the solid is proved.
   std::size_t proved = 0, to_prove = 0;
   std::size_t grid_points = 0, evaluations = 0, grid_triangles = 0;

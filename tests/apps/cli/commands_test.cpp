@@ -100,7 +100,7 @@ TEST_F(CommandTest, InspectReportsEveryFindingByName) {
 }
 
 TEST_F(CommandTest, VolumesAreWrittenWhateverTheCaseOfTheExtension) {
-  fine({"volumes", scene_, "--penumbra", path("p.OBJ")});
+  fine({"volumes", scene_, "--penumbra", path("p.OBJ"), "--form", "cells"});
   EXPECT_TRUE(std::filesystem::exists(file("p.OBJ")));
 }
 
@@ -120,9 +120,10 @@ TEST_F(CommandTest, ClassifyCountsAgreeWithLists) {
 }
 
 TEST_F(CommandTest, VolumesAndReport) {
-  const Json report = Json::parse(fine({"volumes", scene_, "--umbra", path("u.ply"), "--penumbra",
-                                        path("p.obj"), "--sheets", path("s.ply"), "--report", "-"})
-                                      .out);
+  const Json report =
+      Json::parse(fine({"volumes", scene_, "--form", "cells", "--umbra", path("u.ply"), "--penumbra",
+                        path("p.obj"), "--sheets", path("s.ply"), "--report", "-"})
+                      .out);
   for (const char* name : {"u.ply", "p.obj", "s.ply"})
     EXPECT_TRUE(std::filesystem::exists(file(name))) << name;
   ASSERT_EQ(report["objects"].size(), 1u);  // the floor does not cast
@@ -136,9 +137,41 @@ TEST_F(CommandTest, VolumesAndReport) {
 }
 
 TEST_F(CommandTest, MergedVolumesAreReportedForTheScene) {
-  const Json report =
-      Json::parse(fine({"volumes", scene_, "--merge", "--report", "-", "--penumbra", path("p.ply")}).out);
+  const Json report = Json::parse(
+      fine({"volumes", scene_, "--form", "cells", "--merge", "--report", "-", "--penumbra", path("p.ply")})
+          .out);
   EXPECT_EQ(report["scene"]["penumbra"]["triangles"], report["objects"][0]["penumbra"]["triangles"]);
+}
+
+TEST_F(CommandTest, FilesAreSolidsUnlessCellsAreAskedFor) {
+  const Json report = Json::parse(fine({"volumes", scene_, "--umbra", path("u.ply"), "--penumbra",
+                                        path("p.ply"), "--sheets", path("s.ply"), "--check", "--report", "-"})
+                                      .out);
+  const Json& cube = report["objects"].at(0);
+  for (const char* kind : {"umbra", "penumbra"}) {
+    EXPECT_EQ(cube[kind]["guarantee"], "certified") << kind;
+    EXPECT_EQ(cube[kind]["check"]["good"], true) << kind;
+    EXPECT_GT(cube[kind]["volume"], 0.0) << kind;
+  }
+  EXPECT_GT(report["sheets"].at(0)["sheets"]["triangles"], 8);
+  for (const char* name : {"u.ply", "p.ply"})
+    EXPECT_EQ(Json::parse(fine({"inspect", path(name), "--json"}).out)["closed"], true) << name;
+  // Without files it is cells that are reported and checked.
+  EXPECT_EQ(
+      Json::parse(fine({"volumes", scene_, "--report", "-"}).out)["objects"].at(0)["penumbra"]["guarantee"],
+      "contains");
+}
+
+TEST_F(CommandTest, SectionsOfSolidsAreCurves) {
+  fine({"volumes", scene_, "--umbra", path("u.ply"), "--penumbra", path("p.ply")});
+  const Json report = Json::parse(fine({"section", path("p.ply"), path("u.ply"), "--point", "0,0.2,0",
+                                        "--output", path("s.svg"), "--report", "-"})
+                                      .out);
+  ASSERT_EQ(report["sections"].size(), 2u);
+  EXPECT_GT(report["sections"][0]["area"], report["sections"][1]["area"]);
+  EXPECT_GT(report["sections"][1]["area"], 0.0);
+  EXPECT_EQ(report["sections"][0]["closed_curves"], report["sections"][0]["curves"]);
+  EXPECT_TRUE(std::filesystem::exists(file("s.svg")));
 }
 
 TEST_F(CommandTest, UmbraOfAConvexCasterIsExactAndChecked) {

@@ -192,7 +192,8 @@ TEST_F(OutputsTest, WhatHasNoEffectOrIsEmptyIsSaidInOneLine) {
              "--samples has no effect: method silhouette"},
         Case{drawn({"--output", path("a.exr"), "--exposure", "1"}), "--exposure has no effect"},
         Case{drawn({"--output", path("a.exr"), "--warm-up", "1"}), "--warm-up has no effect"},
-        Case{{"volumes", scene_, "--penumbra", path("p.ply"), "--merge"}, "--merge has no effect"},
+        Case{{"volumes", scene_, "--form", "cells", "--penumbra", path("p.ply"), "--merge"},
+             "--merge has no effect"},
         Case{{"volumes", scene_, "--penumbra", path("p.ply"), "--level", "0.3"}, "--level has no effect"},
         Case{{"volumes", nothing, "--penumbra", path("p.ply")}, "no object of the scene casts"},
         Case{{"compare", path("a.exr"), path("a.exr"), "--samples", "64"}, "--samples has no effect"},
@@ -228,12 +229,17 @@ TEST_F(OutputsTest, ScenesAndMeshesComeFromStandardInput) {
 }
 
 TEST_F(OutputsTest, AnEmptyUmbraIsSaid) {
-  write("one.off", "OFF\n3 1 0\n0 1 0\n1e-3 1 0\n0 1 1e-3\n3 0 1 2\n");
-  const std::string scene = write("one.json", scene_text("one.off"));
-  const Outcome outcome = run({"volumes", scene, "--umbra", path("u.ply"), "--penumbra", path("p.ply")});
-  EXPECT_EQ(outcome.code, 0) << outcome.err;
-  EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
-  EXPECT_NE(outcome.err.find("u.ply is empty"), std::string::npos) << outcome.err;
+  // Cells make umbras of closed bodies only; and a plate on edge to the light.
+  write("small.off", "OFF\n3 1 0\n0 1 0\n1e-3 1 0\n0 1 1e-3\n3 0 1 2\n");
+  write("edge.off", "OFF\n3 1 0\n0 1 0\n0 2 0\n0 1 1\n3 0 1 2\n");
+  for (const auto& [mesh, form] : {std::pair("small.off", "cells"), std::pair("edge.off", "solid")}) {
+    const std::string scene = write("one.json", scene_text(mesh));
+    const Outcome outcome =
+        run({"volumes", scene, "--form", form, "--umbra", path("u.ply"), "--penumbra", path("p.ply")});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.error_lines(), 1u) << outcome.err;
+    EXPECT_NE(outcome.err.find("u.ply is empty"), std::string::npos) << outcome.err;
+  }
 }
 
 }  // namespace

@@ -103,6 +103,25 @@ TEST(SolidShapes, ACasterThroughTheLightsPlaneCastsInFrontOfIt) {
   }
 }
 
+TEST(SolidShapes, HollowSolidsLeaveTheBodiesOut) {
+  const TriangleMesh torus = make_torus(Vec3(0.0), 1.0, 0.3, 48, 24);
+  const DiskLight light{{0.0, 5.0, 0.0}, {0.0, -1.0, 0.0}, 0.2};
+  SolidOptions options{.tolerance = 0.05, .bound = {Vec3(-1.8), Vec3(1.8)}};
+  const double body = torus.components().front().signed_volume;
+  for (const Kind kind : {Kind::kUmbra, Kind::kPenumbra}) {
+    options.hollow = false;
+    const ShadowSolid whole = solid_of({torus}, light, {kind}, options);
+    options.hollow = true;
+    const ShadowSolid hollow = solid_of({torus}, light, {kind}, options);
+    expect_sound(hollow.mesh);
+    EXPECT_EQ(hollow.mesh.guarantee, Guarantee::kWithin);
+    EXPECT_NEAR(whole.volume - hollow.volume, body, 0.1 * body);
+    const SolidInside inside(hollow.mesh);
+    EXPECT_FALSE(inside.contains(Vec3(1.0, 0.0, 0.0)));
+    EXPECT_TRUE(inside.contains(Vec3(1.0, -0.6, 0.0)));
+  }
+}
+
 TEST(SolidShapes, RandomScenesGiveSoundSolidsOrAreRefusedByName) {
   std::size_t made = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {

@@ -44,6 +44,7 @@ CasterTree::CasterTree(std::span<const TriangleMesh> casters, const CircularLigh
       int in_front = 0;
       for (int k = 0; k < 3; ++k) {
         face.corners[k] = positions[triangles[f][k]];
+        face.vertices[k] = static_cast<std::uint32_t>(vertices_) + triangles[f][k];
         in_front += side_of_light_plane(face.corners[k], light) == Sign::kPositive ? 1 : 0;
       }
       face.in_front = in_front == 3;
@@ -70,6 +71,7 @@ CasterTree::CasterTree(std::span<const TriangleMesh> casters, const CircularLigh
           faces_[number[index(f)]].component = static_cast<std::uint32_t>(components_);
       ++components_;
     }
+    vertices_ += positions.size();
   }
   std::vector<Vec3> middles(faces_.size());
   for (std::size_t f = 0; f < faces_.size(); ++f)

@@ -26,6 +26,7 @@ class CasterTree {
     std::array<Vec3, 3> corners;
     /// Across the sides 01, 12, 20; kNoFace at a boundary.
     std::array<std::uint32_t, 3> neighbors;
+    std::array<std::uint32_t, 3> vertices;  ///< of all casters, below vertex_count()
     std::uint32_t component;
     FaceClass kind;
     /// Wholly and strictly in front of the light's plane.
@@ -38,6 +39,7 @@ class CasterTree {
   std::span<const Face> faces() const { return faces_; }
   /// How many sets of faces there are that hang together; Face::component numbers them.
   std::size_t component_count() const { return components_; }
+  std::size_t vertex_count() const { return vertices_; }
   const Bounds& bounds() const { return bounds_; }
 
   /// No face meets the shaft. `likely`: a face to try first; set to the one that was found. Cost O(log F + faces nearby).
@@ -55,7 +57,7 @@ class CasterTree {
   std::vector<Face> faces_;
   std::vector<std::uint32_t> order_;  ///< of faces in leaves
   std::vector<Node> nodes_;
-  std::size_t components_ = 0;
+  std::size_t components_ = 0, vertices_ = 0;
   Bounds bounds_;
 };
 

@@ -18,16 +18,34 @@ constexpr std::size_t kMostCrossings = 4;
 }  // namespace
 
 HiddenProof::HiddenProof(const CasterTree& tree, const CircularLight& light)
-    : tree_(tree), light_(light), frame_(light_frame(light)), extent_(0.0), seen_(tree.faces().size(), 0) {}
+    : tree_(tree),
+      light_(light),
+      frame_(light_frame(light)),
+      extent_(0.0),
+      beyond_(tree.vertex_count(), 0),
+      beyond_of_(tree.vertex_count(), 0) {
+  for (auto& seen : seen_) seen.assign(tree.faces().size(), 0);
+}
+
+std::uint32_t HiddenProof::sides_beyond(const LightShaft& shaft, const CasterTree::Face& face, int corner) {
+  const std::uint32_t v = face.vertices[corner];
+  if (beyond_of_[v] != shaft_) {
+    beyond_of_[v] = shaft_;
+    beyond_[v] = shaft.sides_beyond(face.corners[corner]);
+  }
+  return beyond_[v];
+}
 
 /// Whether a patch from the face on keeps T from D.
 bool HiddenProof::separates(const LightShaft& shaft, std::uint32_t first, bool one_kind) {
   const auto faces = tree_.faces();
   const FaceClass other =
       faces[first].kind == FaceClass::kNoneFront ? FaceClass::kAllFront : FaceClass::kNoneFront;
+  std::vector<std::uint32_t>& seen = seen_[one_kind ? 1 : 0];
+  if (seen[first] >= first_patch_) return false;  // part of a patch that does not
   ++patch_;
   waiting_.assign(1, first);
-  seen_[first] = patch_;
+  seen[first] = patch_;
   std::size_t visited = 0;
   while (!waiting_.empty()) {
     const CasterTree::Face& face = faces[waiting_.back()];
@@ -35,22 +53,24 @@ bool HiddenProof::separates(const LightShaft& shaft, std::uint32_t first, bool o
     if (++visited > kMostFaces || !face.in_front) return false;
     const auto& c = face.corners;
     if (!shaft.base_misses(c[0], c[1], c[2])) return false;
+    const std::array<std::uint32_t, 3> beyond{sides_beyond(shaft, face, 0), sides_beyond(shaft, face, 1),
+                                              sides_beyond(shaft, face, 2)};
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t next = face.neighbors[k];
-      if (next != CasterTree::kNoFace && seen_[next] == patch_) continue;
+      if (next != CasterTree::kNoFace && seen[next] == patch_) continue;
       const Vec3 &a = c[k], &b = c[(k + 1) % 3];
-      if (shaft.quickly_misses(a, b)) continue;
+      if ((beyond[k] & beyond[(k + 1) % 3]) != 0) continue;
       if (next == CasterTree::kNoFace || (one_kind && faces[next].kind == other)) {
         if (!shaft.misses(a, b, b)) return false;
         continue;
       }
-      seen_[next] = patch_;
+      seen[next] = patch_;
       waiting_.push_back(next);
     }
   }
   int sum = 0;
   for (const Crossing& c : crossings_)
-    if (seen_[c.face] == patch_) sum += c.sign;
+    if (seen[c.face] == patch_) sum += c.sign;
   return sum != 0;
 }
 
@@ -65,6 +85,8 @@ bool HiddenProof::holds_undivided(std::span<const Vec3> points, const CircularLi
   tree_.crossings(middle, end, crossings_, clean);
   if (!clean || crossings_.empty()) return false;
   const LightShaft shaft(light, frame_, points, extent);
+  ++shaft_;
+  first_patch_ = patch_ + 1;
   std::size_t tries = 0;
   for (auto c = crossings_.rbegin(); c != crossings_.rend() && tries < kMostCrossings; ++c, ++tries)
     if (separates(shaft, c->face, true) || separates(shaft, c->face, false)) return true;

@@ -28,13 +28,18 @@ class HiddenProof {
  private:
   bool holds_undivided(std::span<const Vec3> points, const CircularLight& light);
   bool separates(const LightShaft& shaft, std::uint32_t first, bool one_kind);
+  std::uint32_t sides_beyond(const LightShaft& shaft, const CasterTree::Face& face, int corner);
 
   const CasterTree& tree_;
   const CircularLight light_;
   const LightFrame frame_;
   double extent_;
-  std::vector<std::uint32_t> seen_;  ///< a face's last patch
-  std::uint32_t patch_ = 0;
+  /// A face's last patch, of all kinds and of one kind.
+  std::array<std::vector<std::uint32_t>, 2> seen_;
+  std::uint32_t patch_ = 0, first_patch_ = 0;  ///< the last one, and the first of this shaft
+  std::vector<std::uint32_t> beyond_;          ///< a vertex's sides, as of the shaft below
+  std::vector<std::uint32_t> beyond_of_;
+  std::uint32_t shaft_ = 0;
   std::vector<std::uint32_t> waiting_;
   std::vector<Crossing> crossings_;
 };

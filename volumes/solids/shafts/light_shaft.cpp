@@ -127,8 +127,12 @@ bool LightShaft::misses(const Vec3& a, const Vec3& b, const Vec3& c) const {
   return is_beyond_a_side(triangle) || is_separate(triangle, false);
 }
 
-bool LightShaft::quickly_misses(const Vec3& a, const Vec3& b) const {
-  return is_beyond_a_side({a - origin_, b - origin_, b - origin_});
+std::uint32_t LightShaft::sides_beyond(const Vec3& p) const {
+  const Vec3 from = p - origin_;
+  std::uint32_t out = 0;
+  for (std::size_t k = 0; k < sides_.size(); ++k)
+    out |= glm::dot(sides_[k].normal, from) > sides_[k].offset ? std::uint32_t{1} << k : 0u;
+  return out;
 }
 
 bool LightShaft::base_misses(const Vec3& a, const Vec3& b, const Vec3& c) const {

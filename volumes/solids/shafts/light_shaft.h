@@ -31,8 +31,9 @@ class LightShaft {
   /// True only where the triangle lies outside: a plane separates it from the shaft by more than rounding. Finds all such
   /// planes but for those that leave less than 1e-9 of the extent. An edge is a triangle with two equal corners.
   bool misses(const Vec3& a, const Vec3& b, const Vec3& c) const;
-  /// Quicker, and finds fewer: only planes that bound the shaft are tried.
-  bool quickly_misses(const Vec3& a, const Vec3& b) const;
+  /// As bits, those of some planes that bound the shaft beyond which a point lies. What has points that share a bit misses the
+  /// shaft.
+  std::uint32_t sides_beyond(const Vec3& p) const;
   /// The same as `misses` for T alone instead of its shaft.
   bool base_misses(const Vec3& a, const Vec3& b, const Vec3& c) const;
 

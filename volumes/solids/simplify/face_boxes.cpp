@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <numeric>
 
 namespace penumbra::detail {
@@ -54,14 +51,6 @@ void FaceBoxes::set(std::uint32_t face, const Bounds& box) {
     if (both.low == nodes_[at].low && both.high == nodes_[at].high) return;
     nodes_[at] = both;
   }
-}
-
-bool FaceBoxes::meets(const Bounds& a, const Bounds& b, const Vec3& normal, double offset) {
-  for (int k = 0; k < 3; ++k)
-    if (!(a.low[k] <= b.high[k] && b.low[k] <= a.high[k])) return false;
-  const Vec3 middle = a.center(), half = 0.5 * (a.high - a.low);
-  const double reach = glm::dot(glm::abs(normal), half);
-  return std::abs(glm::dot(normal, middle) - offset) <= reach + 1e-9 * (reach + std::abs(offset));
 }
 
 }  // namespace penumbra::detail

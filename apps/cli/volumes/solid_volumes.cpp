@@ -1,4 +1,4 @@
-#include "apps/cli/solids/solid_volumes.h"
+#include "apps/cli/volumes/solid_volumes.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -19,8 +19,8 @@ struct Wanted {
   std::filesystem::path file;
 };
 
-std::vector<Wanted> wanted(const SolidArguments& arguments) {
-  const bool all = arguments.umbra.empty() && arguments.penumbra.empty() && arguments.level_file.empty();
+std::vector<Wanted> wanted(const VolumeArguments& arguments) {
+  const bool all = !arguments.writes_volumes();
   std::vector<Wanted> out;
   if (all || !arguments.umbra.empty()) out.push_back({"umbra", {ShadowLevel::Kind::kUmbra}, arguments.umbra});
   if (all || !arguments.penumbra.empty())
@@ -82,10 +82,10 @@ std::vector<Part> parts_of(const Scene& scene, bool merge) {
 
 class Writer {
  public:
-  Writer(const SolidArguments& arguments, const Scene& scene, const LightShape& light)
+  Writer(const VolumeArguments& arguments, const Scene& scene, const LightShape& light)
       : arguments_(arguments), scene_(scene), light_(light), line_("solids") {}
 
-  SolidReport run(const std::string& name) {
+  VolumeReport run(const std::string& name) {
     const std::vector<Wanted> kinds = wanted(arguments_);
     const std::vector<Part> parts = parts_of(scene_, arguments_.merge);
     if (parts.empty()) complain("warning: no object of the scene casts; the solids are empty");
@@ -95,7 +95,7 @@ class Writer {
     const auto count = static_cast<double>(parts.size() * kinds.size());
     double done = 0.0;
     for (const Part& part : parts) {
-      const Casters casters(part.casters, arguments_.threads);
+      const Casters casters(part.casters, arguments_.common.threads);
       nlohmann::json report = {{"object", part.object}, {"mesh", part.casters.front().name}};
       if (arguments_.merge) report["merged"] = part.casters.size();
       for (std::size_t k = 0; k < kinds.size(); ++k, done += 1.0)
@@ -109,10 +109,10 @@ class Writer {
   }
 
  private:
-  void write(const std::filesystem::path& file, const ShadowMesh& solid) const {
+  void write(const std::filesystem::path& file, const ShadowMesh& solid) {
     write_shadow_mesh(file, solid);
-    say_written(arguments_.verbose, file);
-    if (solid.triangles.empty())
+    say_written(arguments_.common.verbose, file);
+    if (solid.triangles.empty() && !out_.json["objects"].empty())
       complain("warning: " + shown_name(file) +
                " is empty: at this --tolerance no caster hides as much of the light as it asks for");
   }
@@ -125,10 +125,11 @@ class Writer {
         extrude_solid(casters, light_, kind.level,
                       {.tolerance = tolerance_of(arguments_.tolerance, 2.0 * box.radius()),
                        .bound = solid_bound_for(scene_),
+                       .hollow = arguments_.hollow,
                        .object = part.object,
                        .progress = progress});
     report[kind.name] = solid_report(solid);
-    if (arguments_.verbose)
+    if (arguments_.common.verbose)
       for (const StageTime& stage : solid.stages)
         complain("object " + std::to_string(part.object) + " " + kind.name + " " + stage.name + " " +
                  std::to_string(stage.milliseconds) + " ms");
@@ -155,16 +156,16 @@ class Writer {
     out_.good = out_.good && good;
   }
 
-  const SolidArguments& arguments_;
+  const VolumeArguments& arguments_;
   const Scene& scene_;
   const LightShape& light_;
   ProgressLine line_;
-  SolidReport out_;
+  VolumeReport out_;
 };
 
 }  // namespace
 
-void check(const SolidArguments& arguments) {
+void require_tolerance(const VolumeArguments& arguments) {
   tolerance_of(arguments.tolerance, 1.0);
 }
 
@@ -174,8 +175,8 @@ std::filesystem::path file_of_light(const std::filesystem::path& path, const std
   return named.replace_filename(path.stem().string() + "." + light + path.extension().string());
 }
 
-SolidReport write_solids(const SolidArguments& arguments, const Scene& scene, const LightShape& light,
-                         const std::string& name) {
+VolumeReport write_solids(const VolumeArguments& arguments, const Scene& scene, const LightShape& light,
+                          const std::string& name) {
   return Writer(arguments, scene, light).run(name);
 }
 

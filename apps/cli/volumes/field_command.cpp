@@ -19,7 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   penumbra field bunny.ply --voxel 0.02 --output seen.npy
 Each value is the fraction of the light that a point sees: 0 in umbra and behind the light, 1 where nothing is hidden. The
 grid fills the box of all objects and a little more. VTI is VTK's image data (ParaView), float32; NPY is an array of shape (z, y, x),
-float32. Lengths are scene units.)";
+float32; VDB is a grid of OpenVDB, sparse where all or nothing is seen. Lengths are scene units.)";
 
 struct Arguments {
   CommonOptions common;
@@ -61,8 +61,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_field_command(CLI::App& app) {
-  CLI::App& command =
-      *app.add_subcommand("field", "The fraction of a light that each point of a grid sees (VTI or NPY)");
+  CLI::App& command = *app.add_subcommand(
+      "field", "The fraction of a light that each point of a grid sees (VTI, NPY or VDB)");
   auto arguments = std::make_shared<Arguments>();
   add_scene_input(command, arguments->scene);
   command.add_option("--output", arguments->output, "Where the field goes")->required()->type_name("FILE");
