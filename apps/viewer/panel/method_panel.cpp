@@ -39,15 +39,14 @@ void setting_widget(RenderOptions& options, const OptionSchema& option, int& rev
 
 void method_widgets(const char* label, RenderOptions& options, int& revision, Places& places) {
   ImGui::PushID(label);
-  std::vector<std::string> names;
+  std::vector<std::string> names, help;
   std::size_t at = 0;
   for (const MethodInfo& method : methods()) {
     if (method.name == options.method) at = names.size();
     names.push_back(words_of_method(method.name));
+    help.push_back(names.back() + ": " + method.summary + "\nOn the command line: --method " + method.name);
   }
-  const std::size_t chosen = combo(places, label, at, names);
-  const MethodInfo& before = methods()[at];
-  help_on_hover(names[at] + ": " + before.summary + "\nOn the command line: --method " + before.name);
+  const std::size_t chosen = combo(places, label, at, names, help);
   if (chosen != at) {
     options.method = methods()[chosen].name;
     ++revision;

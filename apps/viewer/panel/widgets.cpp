@@ -38,7 +38,7 @@ bool slider(Places& places, const char* label, double& value, double low, double
 }
 
 std::size_t combo(Places& places, const char* label, std::size_t chosen,
-                  const std::vector<std::string>& texts) {
+                  const std::vector<std::string>& texts, const std::vector<std::string>& help) {
   label_of_next(label);
   const std::string id = std::string("##") + label;
   const bool open = ImGui::BeginCombo(id.c_str(), texts[chosen].c_str());
@@ -47,6 +47,7 @@ std::size_t combo(Places& places, const char* label, std::size_t chosen,
   for (std::size_t i = 0; i < texts.size(); ++i) {
     if (ImGui::Selectable(texts[i].c_str(), i == chosen)) chosen = i;
     note_place(places, texts[i]);
+    if (i < help.size()) help_on_hover(help[i]);
   }
   ImGui::EndCombo();
   return chosen;

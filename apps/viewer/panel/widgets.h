@@ -24,9 +24,9 @@ void label_of_next(const char* label);
 /// With its label. True where the value was changed.
 bool slider(Places& places, const char* label, double& value, double low, double high, const char* format,
             ImGuiSliderFlags flags = 0);
-/// A choice of texts, with its label; returns the chosen number, or `chosen`.
+/// A choice of texts, with its label; returns the chosen number, or `chosen`. `help`: none, or one a text.
 std::size_t combo(Places& places, const char* label, std::size_t chosen,
-                  const std::vector<std::string>& texts);
+                  const std::vector<std::string>& texts, const std::vector<std::string>& help = {});
 /// Radio buttons in a line. True where another one was chosen.
 bool radio_line(Places& places, int& chosen, const std::vector<const char*>& texts,
                 const std::vector<const char*>& help = {});
