@@ -19,6 +19,9 @@
 namespace penumbra {
 namespace {
 
+// Of a frame's progress, what the camera's rays take.
+constexpr double kLook = 0.1;
+
 /// Times of one name add up.
 void add_to(StageTimes& sums, const StageTimes& times) {
   for (const StageTime& time : times) {
@@ -66,7 +69,7 @@ struct Renderer::State {
   /// Throws what Renderer::render does for options, lights and places.
   void require_good(const MethodInfo& info, const RenderOptions& options) const;
   /// What the camera sees; that of the picture before where nothing has changed that it depends on.
-  const SurfaceBuffer& look(const RenderOptions& options);
+  const SurfaceBuffer& look(const RenderOptions& options, const Progress& progress);
   /// What the surface sees of every light. Adds the time of stages to `stages`.
   std::vector<MethodFrame> see(const MethodInfo& info, const OptionValues& values,
                                const SurfaceBuffer& surface, bool keep_textures, const Progress& progress,
@@ -85,12 +88,12 @@ struct Renderer::State {
   std::optional<Seen> seen;
 };
 
-const SurfaceBuffer& Renderer::State::look(const RenderOptions& options) {
+const SurfaceBuffer& Renderer::State::look(const RenderOptions& options, const Progress& progress) {
   const bool same = seen && seen->camera == scene.camera && seen->surface.width == options.width &&
                     seen->surface.height == options.height;
   if (!same)
-    seen =
-        Seen{scene.camera, make_surface_buffer(scene, casters.impl().rays(), options.width, options.height)};
+    seen = Seen{scene.camera, make_surface_buffer(scene, casters.impl().rays(), options.width, options.height,
+                                                  {}, progress)};
   return seen->surface;
 }
 
@@ -146,12 +149,13 @@ void Renderer::State::add_samples(const MethodInfo& info, const RenderOptions& o
     }
     if (info.converges) values["seed"] = integer_of(values, "seed") + 1;
     const auto begin = static_cast<double>(i), count = static_cast<double>(points.size());
+    const Progress frame = part_of(progress, begin / count, (begin + 1.0) / count);
     StageClock clock;
-    const SurfaceBuffer surface =
-        make_surface_buffer(scene, casters.impl().rays(), options.width, options.height, points[i]);
+    const SurfaceBuffer surface = make_surface_buffer(scene, casters.impl().rays(), options.width,
+                                                      options.height, points[i], part_of(frame, 0.0, kLook));
     clock.finish("surface_buffer");
-    const std::vector<MethodFrame> frames = see(
-        info, values, surface, false, part_of(progress, begin / count, (begin + 1.0) / count), out.stages);
+    const std::vector<MethodFrame> frames =
+        see(info, values, surface, false, part_of(frame, kLook, 1.0), out.stages);
     clock.restart();
     sums.add(shade_colors(scene, surface, seen_of(frames), casters.impl().threads));
     clock.finish("shading");
@@ -217,14 +221,14 @@ RenderResult Renderer::render(const RenderOptions& options) {
   state_->require_good(info, options);
   const RayScene& rays = state_->casters.impl().rays();
   StageClock clock;  // one-time set-up is no stage
-  const SurfaceBuffer& surface = state_->look(options);
-  clock.finish("surface_buffer");
-  out.stages = clock.stages();
-  report(options.progress, 0.0);
   // The picture of pixels' centers, and then one for each sample.
   const double first = options.antialias > 1 ? 1.0 / (1.0 + options.antialias * options.antialias) : 1.0;
+  const SurfaceBuffer& surface = state_->look(options, part_of(options.progress, 0.0, kLook * first));
+  clock.finish("surface_buffer");
+  out.stages = clock.stages();
+  report(options.progress, kLook * first);
   out.lights = state_->see(info, out.options, surface, options.keep_textures,
-                           part_of(options.progress, 0.0, first), out.stages);
+                           part_of(options.progress, kLook * first, first), out.stages);
   report(options.progress, first);
   StageClock shading;
   out.image = shade(state_->scene, surface, seen_of(out.lights), state_->casters.impl().threads);

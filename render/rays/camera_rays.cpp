@@ -1,7 +1,5 @@
 #include "render/rays/camera_rays.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -9,6 +7,7 @@
 #include <limits>
 
 #include "mesh/vectors.h"
+#include "render/rays/each_receiver.h"
 #include "render/rays/hit_filter.h"
 
 namespace penumbra {
@@ -99,7 +98,7 @@ void place(const Vec3& origin, const Vec3& direction, const Seen& seen, std::siz
 }  // namespace
 
 SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height,
-                                  const PointInPixel& at) {
+                                  const PointInPixel& at, const Progress& progress) {
   if (width <= 0 || height <= 0 || width > 65536 || height > 65536)
     throw UsageError("image size " + std::to_string(width) + "x" + std::to_string(height) +
                      " is outside 1x1 to 65536x65536");
@@ -113,24 +112,21 @@ SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int 
   out.position.assign(n, Vec3{0.0});
   out.normal.assign(n, Vec3{0.0});
   const PixelRays pixels(scene.camera, width, height);
-  rays.arena().execute([&] {
-    tbb::parallel_for(0, height, [&](int y) {
-      RayPacket packet;
-      packet.endless = true;
-      for (int i = 0; i < kLanes; ++i) packet.set_start(i, {.point = pixels.origin});
-      GroupRays of_group;
-      Seen seen[kLanes];
-      for (int x0 = 0; x0 < width; x0 += kLanes) {
-        const int count = std::min(kLanes, width - x0);
-        trace_row_part(rays, pixels, at, x0, y, count, packet, of_group, seen);
-        for (int i = 0; i < count; ++i)
-          if (seen[i].geometry)
-            place(pixels.origin, packet.way(i), seen[i],
-                  static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(x0 + i),
-                  out);
-      }
-    });
+  detail::for_each_block(rays.arena(), static_cast<std::size_t>(height), progress, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    RayPacket packet;
+    packet.endless = true;
+    for (int i = 0; i < kLanes; ++i) packet.set_start(i, {.point = pixels.origin});
+    GroupRays of_group;
+    Seen seen[kLanes];
+    for (int x0 = 0; x0 < width; x0 += kLanes) {
+      const int count = std::min(kLanes, width - x0);
+      trace_row_part(rays, pixels, at, x0, y, count, packet, of_group, seen);
+      for (int i = 0; i < count; ++i)
+        if (seen[i].geometry)
+          place(pixels.origin, packet.way(i), seen[i],
+                row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x0 + i), out);
+    }
   });
   return out;
 }

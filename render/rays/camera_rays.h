@@ -4,6 +4,7 @@
 // point in double from the pixel's ray and the face's plane.
 #pragma once
 
+#include "penumbra/mesh/progress.h"
 #include "penumbra/render/receivers/surface_buffer.h"
 #include "render/rays/ray_scene.h"
 
@@ -16,8 +17,8 @@ struct PointInPixel {
 };
 
 /// Has a revision of its own. Cost O(pixels · log faces), on all threads of `rays`; deterministic. Throws
-/// UsageError for a side of 0 or above 65,536 pixels.
+/// UsageError for a side of 0 or above 65,536 pixels, Cancelled.
 SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height,
-                                  const PointInPixel& at = {});
+                                  const PointInPixel& at = {}, const Progress& progress = {});
 
 }  // namespace penumbra

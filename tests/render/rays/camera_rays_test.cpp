@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/render/rays/ray_support.h"
 
 namespace penumbra {
@@ -111,6 +113,38 @@ TEST(CameraRays, SeeFromInsideAndBetweenScales) {
   armadillo.camera.target = {0.1, 1.2, 0.3};
   armadillo.camera.fov_y_degrees = 0.5;
   expect_same(armadillo, "a close-up of it", 10'000);
+}
+
+// Rays through another point of every pixel are those through the centers of a picture that is moved by as much.
+TEST(CameraRays, GoThroughAnyPointOfAPixel) {
+  const Scene scene = testing::data_scene("torus-medium");
+  const RayScene rays(scene, 0);
+  const SurfaceBuffer fine = make_surface_buffer(scene, rays, 160, 120);
+  std::size_t same = 0;
+  for (const int x : {0, 1})
+    for (const int y : {0, 1}) {
+      const SurfaceBuffer part = make_surface_buffer(scene, rays, 80, 60, {0.25 + 0.5 * x, 0.25 + 0.5 * y});
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const std::size_t k =
+            (2 * (i / 80) + static_cast<std::size_t>(y)) * 160 + 2 * (i % 80) + static_cast<std::size_t>(x);
+        same += part.object[i] == fine.object[k] && part.face[i] == fine.face[k] &&
+                glm::distance(part.position[i], fine.position[k]) < 1e-12;
+      }
+    }
+  EXPECT_GE(same + 5, fine.size()) << "but for rays on an edge";
+}
+
+TEST(CameraRays, SayHowFarTheyAreAndCanBeStopped) {
+  const Scene scene = testing::data_scene("torus-medium");
+  const RayScene rays(scene, 0);
+  std::vector<double> fractions;
+  make_surface_buffer(scene, rays, 64, 640, {}, [&](double f) {
+    fractions.push_back(f);
+    return true;
+  });
+  EXPECT_GE(fractions.size(), 10u);
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  EXPECT_THROW(make_surface_buffer(scene, rays, 64, 640, {}, [](double f) { return f < 0.5; }), Cancelled);
 }
 
 }  // namespace
