@@ -8,7 +8,7 @@
 namespace penumbra::apps {
 namespace {
 
-constexpr double kLongFrame = 333.0;  // ms; caches of another setting do not matter to it
+constexpr double kLongFrame = 150.0;  // ms; caches of another setting do not matter to it
 
 RenderOptions options_of(const Setting& setting, const StudyView& view) {
   return {.method = setting.method, .options = setting.options, .width = view.width, .height = view.height};

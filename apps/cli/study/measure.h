@@ -1,7 +1,7 @@
 // study, step 2: frames of several settings, timed in turn.
 //
 // What is compared is run in turn: in every round each setting draws one frame, and the default method one beside it, so
-// that a busy minute falls on all of them and ratios are of pairs. Before a timed frame of less than a third of a second
+// that a busy minute falls on all of them and ratios are of pairs. Before a timed frame of less than 150 ms
 // the same frame is drawn once without being timed, since buffers and caches were another setting's.
 #pragma once
 

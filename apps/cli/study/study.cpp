@@ -8,6 +8,7 @@
 
 #include "apps/cli/study/peers/povray.h"
 #include "apps/cli/study/settings.h"
+#include "apps/cli/study/study_disks.h"
 #include "apps/cli/study/study_page.h"
 #include "apps/cli/study/study_pictures.h"
 #include "apps/cli/study/study_record.h"
@@ -123,8 +124,9 @@ std::vector<Setting> CaseStudy::missing_settings() const {
 }
 
 void CaseStudy::begin(Renderer& renderer) {
-  lit_ = make_lit_picture(
-      renderer.render({.method = "none", .width = case_.view.width, .height = case_.view.height}).image);
+  RenderResult lit =
+      renderer.render({.method = "none", .width = case_.view.width, .height = case_.view.height});
+  lit_ = make_lit_picture(std::move(lit.image));
   const std::string name = file_name_of(case_.id());
   const std::filesystem::path folder = record_.folder() / "pictures";
   std::filesystem::create_directories(folder);
@@ -132,6 +134,9 @@ void CaseStudy::begin(Renderer& renderer) {
   about_ = case_.to_json();
   about_["lit_picture"] = name + ".lit.png";
   about_["reference_picture"] = name + ".reference.png";
+  if (case_.sweep.empty() &&
+      write_disks(folder / (name + ".disks.png"), case_, lit.surface, options_.judge.threads))
+    about_["disks_picture"] = name + ".disks.png";
   about_["exposure_stops"] = lit_.exposure_stops;
   record_.add_case(rounded(about_));
 }

@@ -40,7 +40,8 @@ json pictures_of(const StudyRecord& record) {
   const std::filesystem::path folder = record.folder() / "pictures";
   json pictures = json::object();
   for (const json& seen : record.cases())
-    for (const char* key : {"lit_picture", "reference_picture"}) add_picture(pictures, folder, seen, key);
+    for (const char* key : {"lit_picture", "reference_picture", "disks_picture"})
+      add_picture(pictures, folder, seen, key);
   for (const json& row : record.rows()) add_picture(pictures, folder, row, "picture");
   return pictures;
 }

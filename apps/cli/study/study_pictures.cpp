@@ -16,7 +16,7 @@ using Rgb = std::array<unsigned char, 3>;
 /// Every `step`-th pixel of every `step`-th row.
 void write_thinned(const std::filesystem::path& path, int width, int height,
                    const std::function<Rgb(std::size_t)>& color_of) {
-  const int step = std::max(1, (width + kMostColumns - 1) / kMostColumns);
+  const int step = thinning_of(width);
   const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
   std::vector<unsigned char> bytes;
   for (int y = 0; y < rows; ++y)
@@ -41,6 +41,10 @@ float luminance(const Image& image, std::size_t i) {
 }
 
 }  // namespace
+
+int thinning_of(int width) {
+  return std::max(1, (width + kMostColumns - 1) / kMostColumns);
+}
 
 LitPicture make_lit_picture(Image image) {
   std::vector<float> values;

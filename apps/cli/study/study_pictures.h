@@ -28,6 +28,9 @@ struct LitPicture {
 };
 LitPicture make_lit_picture(Image image);
 
+/// Of a picture so wide every so many pixels are shown, across and down.
+int thinning_of(int width);
+
 void write_lit(const std::filesystem::path& path, const LitPicture& lit);
 void write_reference(const std::filesystem::path& path, const LitPicture& lit,
                      std::span<const float> reference);

@@ -87,6 +87,17 @@
     canvases[0].dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
     check(/sees 0\.\d{4} of the light|sees 1\.0000 of the light|no surface/.test(get("probe").textContent), `the probe says ${get("probe").textContent}`);
 
+    // The light as a pixel sees it: partly hidden where the reference says so.
+    const partly = async () => {
+      for (let k = 0; k < 60; ++k) {
+        canvases[0].dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowDown", bubbles: true }));
+        if (/reference 0\.[2-8]/.test(get("probe").textContent) && colors(get("disk")).size > 1) return true;
+      }
+      return false;
+    };
+    check(await partly(), "no pixel below the middle sees a part of the light");
+    check(!get("disk-figure").hidden && get("disk-text").textContent.includes("The light as pixel"), "the light is not shown");
+
     // Keyboard in the plot.
     get("plot").focus();
     get("plot").dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowDown", bubbles: true }));

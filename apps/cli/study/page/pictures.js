@@ -8,14 +8,16 @@
   let zoom = { factor: 1, x: 0, y: 0 };  // x, y: the pixel at the left top
   let probed = null;
 
+  const pictureOf = name => new Promise((resolve, reject) => {
+    const image = new Image();
+    image.onload = () => resolve(image);
+    image.onerror = () => reject(new Error(`picture ${name} cannot be read`));
+    image.src = `data:image/png;base64,${Study.pictures[name]}`;
+  });
+
   /** The bytes of an embedded PNG: {width, height, data}, four bytes a pixel. */
   const decode = async name => {
-    const image = new Image();
-    await new Promise((resolve, reject) => {
-      image.onload = resolve;
-      image.onerror = () => reject(new Error(`picture ${name} cannot be read`));
-      image.src = `data:image/png;base64,${Study.pictures[name]}`;
-    });
+    const image = await pictureOf(name);
     const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
     const context = canvas.getContext("2d", { willReadFrequently: true });
     context.drawImage(image, 0, 0);
@@ -109,7 +111,23 @@
       ? `Pixel ${probed.x * step}, ${probed.y * step}: no surface.`
       : `Pixel ${probed.x * step}, ${probed.y * step}: by ${row.method} it sees ${(reference + error).toFixed(4)} of the light, by the reference ` +
         `${reference.toFixed(4)}; error ${error >= 0 ? "+" : "−"}${Study.digits(Math.abs(error), 2)}; ${certificate}.`;
+    drawDisk(step, !Number.isNaN(error));
     draw();
+  };
+
+  /** The light as the nearest pixel sees it of which that is kept. */
+  const drawDisk = (step, lit) => {
+    const figure = document.getElementById("disk-figure"), { disks } = shown;
+    figure.hidden = !disks || !lit;
+    if (figure.hidden) return;
+    const points = 12, spacing = 4, last = n => Math.ceil(n / spacing) - 1;
+    const column = Math.min(last(shown.numbers.width), Math.round(probed.x / spacing));
+    const row = Math.min(last(shown.numbers.height), Math.round(probed.y / spacing));
+    const context = document.getElementById("disk").getContext("2d");
+    context.imageSmoothingEnabled = false;
+    context.drawImage(disks, column * points, row * points, points, points, 0, 0, 96, 96);
+    document.getElementById("disk-text").textContent =
+      `The light as pixel ${column * spacing * step}, ${row * spacing * step} sees it: what is black is hidden. (Kept of every ${spacing * step}th pixel.)`;
   };
 
   const pointers = new Map();
@@ -179,11 +197,12 @@
       text.textContent = `There is no picture of ${row.label}.`;
       return;
     }
-    const { lit_picture: litName, reference_picture: referenceName } = row.seen;
+    const { lit_picture: litName, reference_picture: referenceName, disks_picture: disksName } = row.seen;
     const [lit, reference, error] = await Promise.all([litName, referenceName, row.picture].map(decode));
-    const numbers = unpack(reference, error);
     const sameView = shown && shown.row.seen === row.seen;
-    shown = { row, numbers };
+    const disks = sameView ? shown.disks : disksName in Study.pictures ? await pictureOf(disksName) : null;
+    const numbers = unpack(reference, error);
+    shown = { row, numbers, disks };
     if (!sameView) { zoom = { factor: 1, x: 0, y: 0 }; probed = null; }
     panels.picture.picture = shaded(lit, numbers, i => numbers.reference[i] + numbers.error[i]);
     panels.reference.picture = shaded(lit, numbers, i => numbers.reference[i]);
@@ -194,7 +213,10 @@
     drawDifference();
     draw();
     if (probed) probe(probed.x, probed.y);
-    else document.getElementById("probe").textContent = "Point at a pixel for its numbers. Wheel or pinch zooms, dragging moves; all three follow.";
+    else {
+      document.getElementById("disk-figure").hidden = true;
+      document.getElementById("probe").textContent = "Point at a pixel for its numbers. Wheel or pinch zooms, dragging moves; all three follow.";
+    }
     text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame, RMSE ${Study.rmseText(row)} where the shadow is soft. ` +
       `Stages, ms: ${Object.entries(row.stages).map(([stage, ms]) => `${stage.replaceAll("_", " ")} ${Study.digits(ms, 2)}`).join(", ")}.`;
     document.getElementById("pictures").dataset.row = row.key;
