@@ -46,7 +46,7 @@ struct ShadowSolid {
   double volume = 0.0, area = 0.0;
   /// Triangles that are proved to be on the safe side, of those that are no far caps.
   std::size_t proved = 0, to_prove = 0;
-  /// One a triangle: it is proved.
+  /// One a triangle: it is proved. Where the umbra is that of one convex body, what lies just inside of it is.
   std::vector<char> is_proved;
   /// Of the surface before it was simplified.
   std::size_t grid_triangles = 0;

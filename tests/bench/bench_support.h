@@ -113,8 +113,10 @@ void bench_occlusion_textures(Record& record, const SceneNames&);
 /// price_bench.cpp: what exact classification costs, and what plain arithmetic gets wrong.
 void bench_price(Record& record, const SceneNames&);
 
-/// solids_bench.cpp: umbra and penumbra solids, judged by rays in double; minutes a scene.
+/// solids_bench.cpp: time and triangles of umbra and penumbra solids.
 void bench_solids(Record& record, const SceneNames& scenes);
+/// The same file: their surfaces by CGAL, a million points each by rays in double; minutes a scene.
+void bench_solids_judge(Record& record, const SceneNames& scenes);
 
 /// volumes_bench.cpp: cells, triangles and time of penumbra and umbra volumes.
 void bench_volumes(Record& record, const SceneNames& scenes);

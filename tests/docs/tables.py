@@ -235,6 +235,33 @@ def umbras(part):
     return markdown(["caster", "ms"], [[name.removesuffix("/umbra"), number(part.median(name))] for name in names])
 
 
+def percent(value):
+    return "" if value is None else f"{100 * value:.1f}%"
+
+
+def solids(part):
+    def kind(scene, name):
+        time = part.median(f"{scene}/{name}/time")
+        return [number(part.median(f"{scene}/{name}/triangles")), "" if time is None else number(time / 1000.0),
+                percent(part.median(f"{scene}/{name}/proved"))]
+
+    return markdown(["scene", "umbra, triangles", "s", "proved", "penumbra, triangles", "s", "proved"],
+                    [[scene] + kind(scene, "umbra") + kind(scene, "penumbra") for scene in scenes_of(part, "/umbra/time")])
+
+
+def judged_solids(part):
+    def both(scene, figure):
+        return sum(part.median(f"{scene}/{kind}/{figure}") or 0 for kind in ("umbra", "penumbra"))
+
+    def sound(scene):
+        return "yes" if both(scene, "sound") == 2 else "NO"
+
+    return markdown(["scene", "sound", "points", "wrong", "proofs contradicted", "umbra missed", "penumbra in surplus"],
+                    [[scene, sound(scene), number(both(scene, "points")), number(both(scene, "wrong points")),
+                      number(both(scene, "contradicted proofs")), percent(part.median(f"{scene}/umbra/missed")),
+                      percent(part.median(f"{scene}/penumbra/surplus"))] for scene in scenes_of(part, "/umbra/missed")])
+
+
 # name, when, figure's name, lights, needs
 METHODS = [
     ("`silhouette`", "the default: exact areas, no noise", "silhouette", "disk, distant", "CPU"),
@@ -278,6 +305,8 @@ TABLES = {
     "price": lambda: each_machine("price", price),
     "volumes": lambda: first_machine("volumes", volumes),
     "umbra": lambda: each_machine("volumes", umbras),
+    "solids": lambda: each_machine("solids", solids),
+    "solids-judge": lambda: first_machine("solids-judge", judged_solids),
 }
 
 

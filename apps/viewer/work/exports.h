@@ -10,7 +10,7 @@
 
 namespace penumbra::viewer {
 
-/// FOLDER/STEM-sheets.ply, -penumbra.ply and -umbra.ply of all casters, as `penumbra volumes` makes them.
+/// FOLDER/STEM-sheets.ply, -penumbra.ply and -umbra.ply of all casters, as `penumbra volumes --form cells` makes them.
 /// Returns what was written in one line. Throws SystemError.
 std::string export_volumes(const std::filesystem::path& folder, const State& state);
 

@@ -1,5 +1,6 @@
 // Solids whose shape is known: levels in closed form, tips, tunnels, casters that join, and casters in the light's plane.
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 
 #include "penumbra/mesh/error.h"
@@ -124,7 +125,9 @@ TEST(SolidShapes, HollowSolidsLeaveTheBodiesOut) {
 
 TEST(SolidShapes, RandomScenesGiveSoundSolidsOrAreRefusedByName) {
   std::size_t made = 0;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  const char* more = std::getenv("PENUMBRA_SOLID_SCENES");  // 500, say
+  const std::uint64_t scenes = more ? std::stoull(more) : 8;
+  for (std::uint64_t seed = 1; seed <= scenes; ++seed) {
     const RandomSolidScene scene(seed);
     for (const Kind kind : {Kind::kUmbra, Kind::kPenumbra, Kind::kFraction}) {
       SCOPED_TRACE("seed " + std::to_string(seed));

@@ -46,7 +46,7 @@ TEST_P(Solids, AreSoundAndOnTheSafeSide) {
     expect_sound(solid.mesh);
     const CircularLight circular = require_circular(s.light, "test");
     SolidPoints points{
-        .count = 20'000, .box = bounds_of(solid.mesh.positions), .near = solid.tolerance, .samples = 64};
+        .count = 100'000, .box = bounds_of(solid.mesh.positions), .near = solid.tolerance, .samples = 48};
     const SolidFigures safe = judge_solid(solid.mesh, umbra, oracle, light, circular, points);
     EXPECT_EQ(safe.wrong, 0u) << "worst " << safe.worst;
     // Few samples take points that see little of the light for hidden ones, and those that see nearly all for lit ones.
