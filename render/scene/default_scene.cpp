@@ -28,7 +28,7 @@ Vec3 foot_of(const Bounds& bounds) {
 }
 
 // What a bare mesh gets. Lengths are radii of its bounding sphere; numbers were chosen by looking at pictures.
-constexpr double kLightDistance = 11.0, kLightElevation = 55.0, kLightRadius = 0.82;
+constexpr double kLightDistance = 5.0, kLightElevation = 55.0, kLightRadius = 0.4;
 // It aims beyond the mesh, so that the floor gets about as much on either side of it.
 constexpr double kLightAim = 42.0;
 // From the camera's left and a little from behind it, so that the shadow falls to the right, into view.

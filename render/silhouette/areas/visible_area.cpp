@@ -18,9 +18,9 @@ constexpr double kLeastRoom = 1e-3;
 /// A lowest depth complexity of a smaller share of D counts as the next one: it may be a rounding, at which no ray
 /// can aim.
 constexpr double kLeastShare = 1e-7;
-/// The most that the areas of two families may differ, over π: some four times what they do in foliage. Their mean is
+/// The most that the areas of two families may differ, over π: some three times what they do in foliage. Their mean is
 /// off by half as much where one of them is.
-constexpr double kMostApart = 0.006;
+constexpr double kMostApart = 0.004;
 /// The most that a family may be off in the integral of L, over π, in steps of L or its deviations.
 constexpr double kMostOff = 0.012;
 /// The same where one family is all there is.
