@@ -79,7 +79,7 @@ def scenes_of(part, suffix):
     """Scenes by their casters, in the order of the benchmark's sizes."""
     sizes = {"small": 0, "medium": 1, "large": 2}
     names = {name[: -len(suffix)] for name in part.figures if name.endswith(suffix)}
-    return sorted(names, key=lambda name: (name.rpartition("-")[0] or name, sizes.get(name.rpartition("-")[2], 0)))
+    return sorted(names, key=lambda name: (name.rpartition("-")[0] or name, sizes.get(name.rpartition("-")[2], 3), name))
 
 
 # The tables. Each takes one part and returns markdown.
@@ -225,13 +225,13 @@ def volumes(part):
             + [number(part.median(f"{scene}/a cell a {unit}/{what}")) for unit in ("face", "patch")
                for what in ("cells", "triangles")]
             + [number(part.median(f"{scene}/a cell a patch/time")), number(part.median(f"{scene}/patch : face"))]
-            for scene in sorted(scenes_of(part, "/patch : face"), key=lambda name: part.median(f"{name}/faces"))]
+            for scene in sorted(scenes_of(part, "/patch : face"), key=lambda name: (part.median(f"{name}/faces"), name))]
     return markdown(["scene", "faces", "cells, one a face", "triangles", "cells, one a patch", "triangles", "ms",
                      "time of patches : faces"], rows)
 
 
 def umbras(part):
-    names = sorted((name for name in part.figures if name.endswith("/umbra")), key=lambda name: part.median(name))
+    names = sorted((name for name in part.figures if name.endswith("/umbra")), key=lambda name: (part.median(name), name))
     return markdown(["caster", "ms"], [[name.removesuffix("/umbra"), number(part.median(name))] for name in names])
 
 
