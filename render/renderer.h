@@ -27,8 +27,8 @@ struct RenderOptions {
   int width = 640, height = 480;
   /// R G B A are means over this many samples along each side of a pixel, 1 to kMostAntialias: surface, visibility and
   /// shading at the centers of as many squares. All other channels are those of the pixel's center, bit for bit what they
-  /// are without. Costs as many frames as a pixel has samples, one more where the number is even, and no memory but
-  /// that of one more frame. Methods that converge take another seed for each.
+  /// are without. Costs as many frames as a pixel has samples, one more where the number is even, and the memory
+  /// of one more frame and 32 bytes a pixel. Methods that converge take another seed for each.
   int antialias = 1;
   /// MethodFrame::textures is wanted.
   bool keep_textures = false;

@@ -58,7 +58,7 @@ struct ShadowSolid {
 
 /// Surface by marching tetrahedra; simplified on one side, as progressive hulls are (P. Sander et al., "Silhouette clipping",
 /// 2000, section 3). Cost: the grid and one call for visibility at each of its points near the surface, and some twenty points a
-/// triangle; on all threads but for simplification. Seconds at the usual tolerance; triangles grow like 1 / tolerance².
+/// triangle; on all threads. Seconds at the usual tolerance; triangles grow like 1 / tolerance².
 ///
 /// The bodies of the casters belong to umbra and penumbra, unless they are left out. What is on the light's plane or behind it does not. Deterministic.
 /// Throws UsageError for a rectangle, options outside their domain, or a tolerance so small that the grid does not fit;

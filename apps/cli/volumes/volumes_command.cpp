@@ -23,8 +23,8 @@ constexpr const char* kFooter = R"(Examples:
   penumbra volumes bunny.ply --penumbra - > p.ply
   penumbra volumes scene.json --check
 Each file holds all casters; - is PLY on standard output. In PLY every triangle says its object (index in the scene) and kind. Solids are closed surfaces without
-self-intersections: all that is inside an umbra is in umbra, and nothing outside of a penumbra is in penumbra
-(guarantee certified where that is proved, within where points tell it). Cells are sums of convex pieces; inside is where their
+self-intersections. Guarantee certified: it is proved that all inside an umbra is in umbra, or that nothing outside of a penumbra
+is in penumbra. Guarantee within: points that were tried say so, and a few others may not. Cells are sums of convex pieces; inside is where their
 winding number is at least 1, and triangles also say their source (face, edge or vertex of that object's mesh, by kind). A
 penumbra of cells holds all that an object partly or wholly hides from the light, an umbra of cells only what it wholly hides:
 all of it where the object is one convex body (guarantee exact), else as much as the convex and star-shaped bodies

@@ -38,6 +38,8 @@ void main() {
 }
 )";
 
+constexpr VertexAttribute kColor{4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(OverlayVertex, color)};
+
 }  // namespace
 
 OverlayPass::OverlayPass(const gl::Functions& gl)
@@ -49,31 +51,17 @@ OverlayPass::OverlayPass(const gl::Functions& gl)
       lines_(gl),
       sheets_(gl) {}
 
-void OverlayPass::upload(List& list, const std::vector<OverlayVertex>& vertices) const {
-  list.count = static_cast<GLsizei>(vertices.size());
-  gl_.BindVertexArray(list.array);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, list.buffer);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(OverlayVertex)),
-                 vertices.data(), GL_DYNAMIC_DRAW);
-  gl_.EnableVertexAttribArray(0);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(OverlayVertex), nullptr);
-  gl_.EnableVertexAttribArray(1);
-  gl_.VertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(OverlayVertex),
-                          reinterpret_cast<const void*>(offsetof(OverlayVertex, color)));
-  gl_.BindVertexArray(0);
-}
-
 void OverlayPass::set(std::shared_ptr<const OverlayGeometry> geometry) {
   if (geometry == geometry_) return;
   geometry_ = std::move(geometry);
   if (!geometry_) return;
-  upload(scene_, geometry_->scene);
-  upload(faces_, geometry_->faces);
-  upload(lines_, geometry_->lines);
-  upload(sheets_, geometry_->sheets);
+  scene_.count = upload(gl_, scene_, geometry_->scene, kColor);
+  faces_.count = upload(gl_, faces_, geometry_->faces, kColor);
+  lines_.count = upload(gl_, lines_, geometry_->lines, kColor);
+  sheets_.count = upload(gl_, sheets_, geometry_->sheets, kColor);
 }
 
-void OverlayPass::draw_list(const List& list, GLenum mode) const {
+void OverlayPass::draw_list(const VertexList& list, GLenum mode) const {
   if (!list.count) return;
   gl_.BindVertexArray(list.array);
   gl_.DrawArrays(mode, 0, list.count);

@@ -6,6 +6,7 @@
 
 #include "apps/viewer/handles/projection.h"
 #include "apps/viewer/pictures/overlay_geometry.h"
+#include "apps/viewer/pictures/vertex_list.h"
 #include "render/gl/program.h"
 
 namespace penumbra::viewer {
@@ -25,18 +26,11 @@ class OverlayPass {
   const OverlayGeometry* geometry() const { return geometry_.get(); }
 
  private:
-  struct List {
-    explicit List(const gl::Functions& gl)
-        : array(gl, gl::Object::Kind::kVertexArray), buffer(gl, gl::Object::Kind::kBuffer) {}
-    gl::Object array, buffer;
-    GLsizei count = 0;
-  };
-  void upload(List& list, const std::vector<OverlayVertex>& vertices) const;
-  void draw_list(const List& list, GLenum mode) const;
+  void draw_list(const VertexList& list, GLenum mode) const;
 
   const gl::Functions& gl_;
   gl::Program program_;
-  List scene_, faces_, lines_, sheets_;
+  VertexList scene_, faces_, lines_, sheets_;
   std::shared_ptr<const OverlayGeometry> geometry_;
 };
 

@@ -42,6 +42,8 @@ void main() {
 }
 )";
 
+constexpr VertexAttribute kNormal{3, GL_FLOAT, GL_FALSE, offsetof(SolidVertex, nx)};
+
 }  // namespace
 
 SolidPass::SolidPass(const gl::Functions& gl)
@@ -52,26 +54,12 @@ SolidPass::SolidPass(const gl::Functions& gl)
       penumbra_(gl),
       section_(gl) {}
 
-void SolidPass::upload(const List& list, const std::vector<SolidVertex>& vertices) const {
-  gl_.BindVertexArray(list.array);
-  gl_.BindBuffer(GL_ARRAY_BUFFER, list.buffer);
-  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(SolidVertex)),
-                 vertices.data(), GL_DYNAMIC_DRAW);
-  gl_.EnableVertexAttribArray(0);
-  gl_.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(SolidVertex), nullptr);
-  gl_.EnableVertexAttribArray(1);
-  gl_.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(SolidVertex),
-                          reinterpret_cast<const void*>(offsetof(SolidVertex, nx)));
-  gl_.BindVertexArray(0);
-}
-
 void SolidPass::set(std::shared_ptr<const Solids> solids) {
   if (solids == solids_) return;
   solids_ = std::move(solids);
   if (!solids_) return;
-  const auto fill = [&](List& list, const std::optional<std::vector<SolidVertex>>& vertices) {
-    list.count = vertices ? static_cast<GLsizei>(vertices->size()) : 0;
-    if (list.count) upload(list, *vertices);
+  const auto fill = [&](VertexList& list, const std::optional<std::vector<SolidVertex>>& vertices) {
+    list.count = vertices ? upload(gl_, list, *vertices, kNormal) : 0;
   };
   fill(umbra_, solids_->umbra);
   fill(penumbra_, solids_->penumbra);
@@ -94,7 +82,7 @@ void SolidPass::set_section(const Cut& cut, const Vec3& origin, double bound) co
     square.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z),
                       static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)});
   }
-  upload(section_, square);
+  upload(gl_, section_, square, kNormal);
 }
 
 void SolidPass::draw_surface(const Glass& glass, GLenum culled) const {

@@ -7,6 +7,7 @@
 #include "apps/viewer/pictures/cut.h"
 #include "apps/viewer/pictures/overlay_colors.h"
 #include "apps/viewer/pictures/overlay_pass.h"
+#include "apps/viewer/pictures/vertex_list.h"
 #include "apps/viewer/work/solid_maker.h"
 #include "render/gl/program.h"
 
@@ -22,18 +23,11 @@ class SolidPass {
   void draw(const State& state, const OverlayGeometry& geometry, const Viewport& place, bool faint) const;
 
  private:
-  struct List {
-    explicit List(const gl::Functions& gl)
-        : array(gl, gl::Object::Kind::kVertexArray), buffer(gl, gl::Object::Kind::kBuffer) {}
-    gl::Object array, buffer;
-    GLsizei count = 0;
-  };
   struct Glass {
-    const List& list;
+    const VertexList& list;
     const OverlayColor& color;
     bool shown;
   };
-  void upload(const List& list, const std::vector<SolidVertex>& vertices) const;
   void set_tint(const OverlayColor& color) const;
   void draw_surface(const Glass& glass, GLenum culled) const;
   void draw_section(const Glass& glass, float cut) const;
@@ -41,7 +35,7 @@ class SolidPass {
 
   const gl::Functions& gl_;
   gl::Program program_;
-  List umbra_, penumbra_, section_;
+  VertexList umbra_, penumbra_, section_;
   std::shared_ptr<const Solids> solids_;
 };
 
