@@ -16,7 +16,7 @@ namespace {
 /// Of the casters' diagonal.
 constexpr double kUsualTolerance = 0.01;
 /// The umbra is judged at points by a light that is larger by this.
-constexpr double kLarger = 1.002;
+constexpr double kLarger = 1.0005;
 
 /// A distant light by the tangent of half its angle, so that it stays below 180 degrees.
 LightShape enlarged(LightShape light) {

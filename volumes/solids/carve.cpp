@@ -1,14 +1,20 @@
 #include "volumes/solids/carve.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace penumbra::detail {
 namespace {
 
-/// The first pull, of an edge. Each next one is twice as far.
-constexpr double kFirstPull = 1.0 / 64;
+/// The first pull, of an edge, and how many times as far each next one is.
+constexpr double kFirstPull = 1.0 / 160, kPullGrowth = 1.6;
 /// Where an edge begins that is crossed since a grid point changed sides: so far from that point.
 constexpr double kStart = 1.0 / 16;
+/// Of the grid's spacing: so far outside of triangles that cannot be proved points are tried, so that what they bulge between the
+/// points is in umbra as well.
+constexpr double kMargin = 0.055;
+
 /// Moves what bad triangles touch.
 class Carver {
  public:
@@ -18,7 +24,7 @@ class Carver {
     CrossedEdge& e = edges_.all()[number];
     if (e.moved || e.in_wall) return;  // pulled already, or fixed
     e.moved = true;
-    e.pull = e.pull > 0.0 ? 2.0 * e.pull : kFirstPull;
+    e.pull = e.pull > 0.0 ? kPullGrowth * e.pull : kFirstPull;
     e.at += inward_ ? -e.pull : e.pull;
     if (e.at <= 0.0) flip(edges_.inner_end(e));
     if (e.at >= 1.0) flip(edges_.outer_end(e));
@@ -94,11 +100,29 @@ class KnownPoints {
   TrianglePoints::Known known_;
 };
 
+/// Positions moved outward along the mean normals of the triangles that meet there, but not out of the grid's box.
+std::vector<Vec3> grown(const GridSurface& surface, double by, const Bounds& box) {
+  std::vector<Vec3> normals(surface.positions.size(), Vec3(0.0));
+  for (std::size_t i = 0; i < surface.inner_triangles; ++i) {
+    const IndexedTriangle& t = surface.triangles[i];
+    const auto& p = surface.positions;
+    const Vec3 normal = glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+    for (const std::uint32_t v : t) normals[v] += normal;
+  }
+  std::vector<Vec3> out = surface.positions;
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    const double length = glm::length(normals[v]);
+    if (length > 0.0) out[v] = glm::clamp(out[v] + by / length * normals[v], box.low, box.high);
+  }
+  return out;
+}
+
 }  // namespace
 
 GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& request,
                   const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress) {
   const bool umbra = request.region == ShadowRegion::kUmbra;
+  const double spacing = std::max({grid.step().x, grid.step().y, grid.step().z});
   Carver carver(grid, edges, umbra);
   KnownPoints points;
   for (bool proofs = !umbra;;) {
@@ -109,7 +133,8 @@ GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& 
     const TriangleJudge::Surface part{surface.positions, triangles};
     TriangleJudge::Faults faults;
     if (proofs) {
-      faults = judge.try_proofs(part, evaluations);
+      faults = judge.try_proofs(
+          part, umbra ? grown(surface, kMargin * spacing, grid.box()) : surface.positions, evaluations);
     } else {
       TrianglePoints::Known known = points.of(surface, which);
       faults = judge.try_middles(part, known, evaluations);

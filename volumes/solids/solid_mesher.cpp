@@ -20,12 +20,12 @@ constexpr int kBisections = 8;        ///< of a crossed edge
 constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from its ends
 /// Of the tolerance: grid points are at most so far apart, and at least. Where solids are thin they are as far apart as this share
 /// of volume over area, so that what is lost to the safe side stays a small share of the volume.
-constexpr double kCoarsest = 2.0, kFinest = 1.0, kThickness = 0.25;
+constexpr double kCoarsest = 2.0, kFinest = 1.0, kThickness = 0.22;
 constexpr double kNearWall =
     4e-3;  ///< of the tolerance: grid points so near to the light's plane are outside
-constexpr double kFirstLook = 4.0;   ///< of the tolerance: the grid that tells volume and area
-constexpr double kSimplified = 0.1;  ///< of the spacing: so far may simplification move a point
-constexpr int kProofDepth = 1;       ///< so often are triangles divided where they cannot be proved whole
+constexpr double kFirstLook = 4.0;    ///< of the tolerance: the grid that tells volume and area
+constexpr double kSimplified = 0.07;  ///< of the spacing: so far may simplification move a point
+constexpr int kProofDepth = 1;        ///< so often are triangles divided where they cannot be proved whole
 
 class Mesher {
  public:

@@ -11,7 +11,7 @@ namespace penumbra::detail {
 namespace {
 
 /// Sides of triangles that cannot be proved are divided into so many parts.
-constexpr int kParts = 6;
+constexpr int kParts = 5;
 constexpr std::uint8_t kAll = 7;
 
 using Corners = std::array<Vec3, 3>;
@@ -61,7 +61,8 @@ std::vector<char> TriangleJudge::prove(const Surface& surface, int depth) const 
   return out;
 }
 
-TriangleJudge::Faults TriangleJudge::try_proofs(const Surface& surface, std::size_t& evaluations) const {
+TriangleJudge::Faults TriangleJudge::try_proofs(const Surface& surface, std::span<const Vec3> grown,
+                                                std::size_t& evaluations) const {
   const std::vector<char> proved = prove(surface, 0);
   Faults out(proved.size(), 0);
   std::vector<std::size_t> asked;
@@ -76,7 +77,7 @@ TriangleJudge::Faults TriangleJudge::try_proofs(const Surface& surface, std::siz
     return out;
   }
   const PointPattern pattern = lattice_points(kParts);
-  const TrianglePoints points(surface.positions, triangles, pattern);
+  const TrianglePoints points(grown, triangles, pattern);
   const std::vector<float> seen = request_.judge(points.points());
   evaluations += seen.size();
   tbb::parallel_for(std::size_t{0}, asked.size(), [&](std::size_t a) {

@@ -21,11 +21,9 @@ HiddenProof::HiddenProof(const CasterTree& tree, const CircularLight& light)
     : tree_(tree),
       light_(light),
       frame_(light_frame(light)),
-      extent_(0.0),
+      seen_(tree.faces().size(), 0),
       beyond_(tree.vertex_count(), 0),
-      beyond_of_(tree.vertex_count(), 0) {
-  for (auto& seen : seen_) seen.assign(tree.faces().size(), 0);
-}
+      beyond_of_(tree.vertex_count(), 0) {}
 
 std::uint32_t HiddenProof::sides_beyond(const LightShaft& shaft, const CasterTree::Face& face, int corner) {
   const std::uint32_t v = face.vertices[corner];
@@ -37,15 +35,12 @@ std::uint32_t HiddenProof::sides_beyond(const LightShaft& shaft, const CasterTre
 }
 
 /// Whether a patch from the face on keeps T from D.
-bool HiddenProof::separates(const LightShaft& shaft, std::uint32_t first, bool one_kind) {
+bool HiddenProof::separates(const LightShaft& shaft, std::uint32_t first) {
   const auto faces = tree_.faces();
-  const FaceClass other =
-      faces[first].kind == FaceClass::kNoneFront ? FaceClass::kAllFront : FaceClass::kNoneFront;
-  std::vector<std::uint32_t>& seen = seen_[one_kind ? 1 : 0];
-  if (seen[first] >= first_patch_) return false;  // part of a patch that does not
+  if (seen_[first] >= first_patch_) return false;  // part of a patch that does not
   ++patch_;
   waiting_.assign(1, first);
-  seen[first] = patch_;
+  seen_[first] = patch_;
   std::size_t visited = 0;
   while (!waiting_.empty()) {
     const CasterTree::Face& face = faces[waiting_.back()];
@@ -57,44 +52,43 @@ bool HiddenProof::separates(const LightShaft& shaft, std::uint32_t first, bool o
                                               sides_beyond(shaft, face, 2)};
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t next = face.neighbors[k];
-      if (next != CasterTree::kNoFace && seen[next] == patch_) continue;
+      if (next != CasterTree::kNoFace && seen_[next] == patch_) continue;
       const Vec3 &a = c[k], &b = c[(k + 1) % 3];
       if ((beyond[k] & beyond[(k + 1) % 3]) != 0) continue;
-      if (next == CasterTree::kNoFace || (one_kind && faces[next].kind == other)) {
-        if (!shaft.misses(a, b, b)) return false;
-        continue;
-      }
-      seen[next] = patch_;
+      const bool is_open = next == CasterTree::kNoFace;
+      if ((is_open || faces[next].kind != face.kind) && shaft.misses(a, b, b)) continue;
+      if (is_open) return false;
+      seen_[next] = patch_;
       waiting_.push_back(next);
     }
   }
   int sum = 0;
   for (const Crossing& c : crossings_)
-    if (seen[c.face] == patch_) sum += c.sign;
+    if (seen_[c.face] == patch_) sum += c.sign;
   return sum != 0;
 }
 
-bool HiddenProof::holds_undivided(std::span<const Vec3> points, const CircularLight& light) {
+bool HiddenProof::holds_undivided(std::span<const Vec3> points) {
   Vec3 middle(0.0);
   for (const Vec3& p : points) middle += p / static_cast<double>(points.size());
   Bounds all = tree_.bounds();
   for (const Vec3& p : points) all.add(p);
   const double extent = 2.0 * all.radius();
-  const Vec3 end = light.is_distant() ? middle - 2.0 * extent * unit(light.normal) : light.center;
+  const Vec3 end = light_.is_distant() ? middle - 2.0 * extent * unit(light_.normal) : light_.center;
   bool clean = true;
   tree_.crossings(middle, end, crossings_, clean);
   if (!clean || crossings_.empty()) return false;
-  const LightShaft shaft(light, frame_, points, extent);
+  const LightShaft shaft(light_, frame_, points, extent);
   ++shaft_;
   first_patch_ = patch_ + 1;
   std::size_t tries = 0;
   for (auto c = crossings_.rbegin(); c != crossings_.rend() && tries < kMostCrossings; ++c, ++tries)
-    if (separates(shaft, c->face, true) || separates(shaft, c->face, false)) return true;
+    if (separates(shaft, c->face)) return true;
   return false;
 }
 
 bool HiddenProof::holds(std::span<const Vec3> points, int depth) {
-  if (holds_undivided(points, light_)) return true;
+  if (holds_undivided(points)) return true;
   if (depth <= 0 || points.size() != 3) return false;
   const Vec3 ab = 0.5 * (points[0] + points[1]), bc = 0.5 * (points[1] + points[2]),
              ca = 0.5 * (points[2] + points[0]);

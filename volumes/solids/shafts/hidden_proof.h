@@ -6,8 +6,8 @@
 // signs come or go. If that number is not 0 for one segment, every segment meets the patch, and T is in umbra. Edges of
 // other layers in front or behind do not matter.
 //
-// Two patches are tried at each crossing of one segment: faces that do not look away from the whole light (or all that do),
-// so that the patch ends at a silhouette; and faces of any kind.
+// A patch ends as soon as it can: at edges between faces of different classes (AllFront, Mixed, NoneFront) that miss the shaft.
+// So it stays on the side of a smooth body that faces the light, whose crossings do not cancel with those of its back.
 #pragma once
 
 #include <vector>
@@ -21,21 +21,19 @@ class HiddenProof {
  public:
   HiddenProof(const CasterTree& tree, const CircularLight& light);
 
-  /// True only where all of the hull of up to three points sees nothing of the light: with the light as it is, or divided
-  /// into smaller disks that cover it. `depth`: how often the points, and the light, may be divided.
+  /// True only where all of the hull of up to three points sees nothing of the light. `depth`: how often a triangle may be
+  /// divided into four.
   bool holds(std::span<const Vec3> points, int depth);
 
  private:
-  bool holds_undivided(std::span<const Vec3> points, const CircularLight& light);
-  bool separates(const LightShaft& shaft, std::uint32_t first, bool one_kind);
+  bool holds_undivided(std::span<const Vec3> points);
+  bool separates(const LightShaft& shaft, std::uint32_t first);
   std::uint32_t sides_beyond(const LightShaft& shaft, const CasterTree::Face& face, int corner);
 
   const CasterTree& tree_;
   const CircularLight light_;
   const LightFrame frame_;
-  double extent_;
-  /// A face's last patch, of all kinds and of one kind.
-  std::array<std::vector<std::uint32_t>, 2> seen_;
+  std::vector<std::uint32_t> seen_;            ///< a face's last patch
   std::uint32_t patch_ = 0, first_patch_ = 0;  ///< the last one, and the first of this shaft
   std::vector<std::uint32_t> beyond_;          ///< a vertex's sides, as of the shaft below
   std::vector<std::uint32_t> beyond_of_;
