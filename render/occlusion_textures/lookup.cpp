@@ -196,11 +196,12 @@ void SliceReceivers::add(const Vec3& p, const Vec3& normal, const LightProjectio
   per_weight[count] = 1.0 / light.weight(p);
   toward_u[count] = light.tilt().x - light.nearness() * p.x;
   toward_v[count] = light.tilt().y - light.nearness() * p.y;
-  // A horizon along the plane is far below.
-  const double along = std::max(std::hypot(normal.x, normal.y), 1e-12);
-  up_u[count] = normal.x / along;
-  up_v[count] = normal.y / along;
-  climb[count] = -normal.z / along;
+  // A horizon along the plane is far below, and every way along the plane is up it: a vector of length 0 would give the
+  // light no extent that way, and project_light divides by that.
+  const double along = std::hypot(normal.x, normal.y);
+  up_u[count] = along > 0.0 ? normal.x / along : 1.0;
+  up_v[count] = along > 0.0 ? normal.y / along : 0.0;
+  climb[count] = -normal.z / std::max(along, 1e-12);
   above[count++] = above_horizon;
 }
 

@@ -20,6 +20,8 @@ const std::vector<std::string>& required() {
       "lights/*/reference",
       "lights/*/rays",
       "lights/*/hard",
+      "lights/just_above_the_top_face*/occlusion-textures",
+      "lights/sun_along_two_sides*/occlusion-textures",
       "suns/*/silhouette",
       "plates/*_floor_20/silhouette",
       "plates/*_floor_20_casts/silhouette",
