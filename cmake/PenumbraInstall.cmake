@@ -50,12 +50,13 @@ penumbra_component(volumes "umbra and penumbra volumes of meshes under a disk li
                    NEEDS mesh PACKAGES TBB MODULES tbb gmp mpfr)
 penumbra_component(checks "checks and repair of volumes and meshes (with CGAL packages under the GPL)"
                    NEEDS volumes PACKAGES TBB MODULES tbb gmp mpfr)
-set(openvdb_flags "")
-if(PENUMBRA_OPENVDB_INCLUDE AND PENUMBRA_OPENVDB_LIBRARY)
-  set(openvdb_flags -lopenvdb)
+# Where the loader finds the module that writes OpenVDB's grids.
+set(module_flags -ldl)
+if(TARGET penumbra_vdb)
+  list(APPEND module_flags "-Wl,-rpath,\${libdir}/penumbra")
 endif()
 penumbra_component(visibility "visibility of a light from points, without OpenGL"
-                   NEEDS volumes PACKAGES "embree 3" TBB MODULES tbb FLAGS -lembree3 ${openvdb_flags})
+                   NEEDS volumes PACKAGES "embree 3" TBB MODULES tbb FLAGS -lembree3 ${module_flags})
 penumbra_component(render "images of soft shadows"
                    NEEDS visibility PACKAGES "embree 3" TBB OpenEXR MODULES tbb OpenEXR FLAGS -lembree3 -ldl)
 

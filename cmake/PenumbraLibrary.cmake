@@ -23,6 +23,12 @@ endif()
 # source tree they stand beside the code that they are the contract of; this folder links to them, and to nothing else.
 set(PENUMBRA_PUBLIC_INCLUDE ${PROJECT_BINARY_DIR}/include)
 
+# Where modules are that are opened at run time, and where this project's programs look for them: built, and installed.
+set(PENUMBRA_MODULES ${PROJECT_BINARY_DIR}/lib)
+file(RELATIVE_PATH penumbra_up ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/penumbra)
+list(APPEND CMAKE_BUILD_RPATH ${PENUMBRA_MODULES})
+list(APPEND CMAKE_INSTALL_RPATH \$ORIGIN/${penumbra_up})
+
 # penumbra_library(NAME FOLDERS... [FILES...] [PUBLIC HEADERS...]): the static library penumbra_NAME (alias penumbra::NAME)
 # from every .cpp of the folders, and the files. All are relative to the calling folder. The headers are public: they are linked into
 # PENUMBRA_PUBLIC_INCLUDE and installed; all others are internal. The global property PENUMBRA_PUBLIC_HEADERS names the

@@ -14,6 +14,7 @@
 #include "render/rays/camera_rays.h"
 #include "render/receivers/unlit.h"
 #include "render/scene/scene_limits.h"
+#include "render/shading/glass.h"
 #include "render/shading/shading.h"
 
 namespace penumbra {
@@ -37,6 +38,14 @@ std::vector<LightVisibility> seen_of(const std::vector<MethodFrame>& lights) {
   std::vector<LightVisibility> seen;
   for (const MethodFrame& frame : lights) seen.push_back({frame.visibility, frame.region});
   return seen;
+}
+
+detail::ColorChannels channels_of(Image& image) {
+  return {image.channels.at("R").data(), image.channels.at("G").data(), image.channels.at("B").data(),
+          image.channels.at("A").data()};
+}
+detail::ColorChannels channels_of(Colors& colors) {
+  return {colors.r.data(), colors.g.data(), colors.b.data(), colors.a.data()};
 }
 
 /// Channels of several lights have the lights' names.
@@ -74,6 +83,9 @@ struct Renderer::State {
   std::vector<MethodFrame> see(const MethodInfo& info, const OptionValues& values,
                                const SurfaceBuffer& surface, bool keep_textures, const Progress& progress,
                                StageTimes& stages);
+  /// Puts glass and lights that are seen over a picture.
+  template <class Picture>
+  void add_glass(const SurfaceBuffer& surface, const PointInPixel& at, Picture& picture);
   /// Replaces R G B A of a picture of pixels' centers by means over all samples.
   void add_samples(const MethodInfo& info, const RenderOptions& options, const Progress& progress,
                    RenderResult& out);
@@ -86,7 +98,17 @@ struct Renderer::State {
     SurfaceBuffer surface;
   };
   std::optional<Seen> seen;
+  /// Made when they are first needed.
+  std::optional<GlassRays> glass;
 };
+
+template <class Picture>
+void Renderer::State::add_glass(const SurfaceBuffer& surface, const PointInPixel& at, Picture& picture) {
+  if (scene.glass.empty() && !scene.picture.show_lights) return;
+  if (!glass && !scene.glass.empty()) glass.emplace(scene.glass);
+  detail::add_glass(scene, glass ? &*glass : nullptr, surface, at, casters.impl().threads,
+                    channels_of(picture));
+}
 
 const SurfaceBuffer& Renderer::State::look(const RenderOptions& options, const Progress& progress) {
   const bool same = seen && seen->camera == scene.camera && seen->surface.width == options.width &&
@@ -157,7 +179,9 @@ void Renderer::State::add_samples(const MethodInfo& info, const RenderOptions& o
     const std::vector<MethodFrame> frames =
         see(info, values, surface, false, part_of(frame, kLook, 1.0), out.stages);
     clock.restart();
-    sums.add(shade_colors(scene, surface, seen_of(frames), casters.impl().threads));
+    Colors colors = shade_colors(scene, surface, seen_of(frames), casters.impl().threads);
+    add_glass(surface, points[i], colors);
+    sums.add(colors);
     clock.finish("shading");
     add_to(out.stages, clock.stages());
   }
@@ -232,6 +256,7 @@ RenderResult Renderer::render(const RenderOptions& options) {
   report(options.progress, first);
   StageClock shading;
   out.image = shade(state_->scene, surface, seen_of(out.lights), state_->casters.impl().threads);
+  state_->add_glass(surface, {}, out.image);
   shading.finish("shading");
   add_to(out.stages, shading.stages());
   out.surface = surface;

@@ -117,8 +117,8 @@ void run(const Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   say_what_is_ignored(arguments);
   Scene scene = load(arguments.scene);
-  require_apart(arguments.outputs(), scene.files);
   apply(arguments.picture, scene);
+  require_apart(arguments.outputs(), scene.files);
   options.antialias = scene.picture.antialias;
   RenderResult result;
   {

@@ -5,11 +5,15 @@
 
 #include "apps/common/messages.h"
 #include "penumbra/mesh/error.h"
+#include "penumbra/mesh/io/polygon_soup.h"
 
 namespace penumbra::apps {
 namespace {
 
 constexpr double kMostAmbient = 1e6;
+// Of glass; see GlassBody.
+const Vec3 kPenumbraTint(1.0, 0.52, 0.13), kUmbraTint(0.02, 0.05, 0.3);
+constexpr double kPenumbraDensity = 0.35, kUmbraDensity = 0.99;
 
 // Not CLI::Range, which lets NaN through.
 std::string require_ambient(const std::string& text) {
@@ -24,6 +28,14 @@ std::string require_background(const std::string& text) {
     return "";
   } catch (const UsageError& e) {
     return e.what();
+  }
+}
+
+void add_glass(const std::vector<std::filesystem::path>& meshes, const Vec3& tint, double density,
+               Scene& scene) {
+  for (const std::filesystem::path& path : meshes) {
+    scene.glass.push_back({.mesh = read_mesh(path), .tint = tint, .density = density});
+    scene.files.push_back(path);
   }
 }
 
@@ -54,12 +66,27 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
       ->type_name("COLOR");
   command.add_flag("--shadow-catcher", options.shadow_catcher,
                    "Of objects that do not cast, such as floors, show only the shadow on them, by alpha");
+  command
+      .add_option("--show-penumbra", options.penumbras,
+                  "A closed mesh to show as clear amber glass over the picture, such as a solid that "
+                  "penumbra volumes wrote; "
+                  "may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("MESH");
+  command.add_option("--show-umbra", options.umbras, "The same as dark blue glass")
+      ->allow_extra_args(false)
+      ->type_name("MESH");
+  command.add_flag("--show-lights", options.show_lights,
+                   "Show near lights that the camera sees, as bright as they are");
 }
 
 void apply(const PictureOptions& options, Scene& scene) {
   if (options.antialias) scene.picture.antialias = *options.antialias;
   if (options.ambient) scene.picture.ambient = Vec3(*options.ambient);
   if (options.background) scene.picture.background = *options.background;
+  if (options.show_lights) scene.picture.show_lights = true;
+  add_glass(options.penumbras, kPenumbraTint, kPenumbraDensity, scene);
+  add_glass(options.umbras, kUmbraTint, kUmbraDensity, scene);
   if (!options.shadow_catcher) return;
   bool any = false;
   for (SceneObject& object : scene.objects) {

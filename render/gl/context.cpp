@@ -1,6 +1,5 @@
 #include "render/gl/context.h"
 
-#include <new>
 #include <string>
 
 #include "penumbra/mesh/error.h"
@@ -20,12 +19,6 @@ const char* name_of(Backend backend) {
 
 std::unique_ptr<Context> make_context(Backend backend) {
   return backend == Backend::kOsMesa ? make_osmesa_context() : make_egl_context();
-}
-
-void require_memory_for_library(const char* reason) {
-  const std::string text = reason != nullptr ? reason : "";
-  for (const char* sign : {"failed to map segment", "Cannot allocate memory", "out of memory"})
-    if (text.find(sign) != std::string::npos) throw std::bad_alloc();
 }
 
 std::string renderer_string(const Functions& gl) {

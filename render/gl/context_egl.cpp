@@ -6,6 +6,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/gl/context_backends.h"
+#include "render/support/library_memory.h"
 
 namespace penumbra::gl {
 namespace {
@@ -32,7 +33,7 @@ const Library& library() {
   static const Library opened = [] {
     Library lib;
     lib.handle = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-    if (!lib.handle) require_memory_for_library(dlerror());
+    if (!lib.handle) detail::require_memory_for_library(dlerror());
     if (!lib.handle)
       throw SystemError(
           "cannot open libEGL.so.1: install the Debian packages libegl1 and libegl-mesa0, or use option "

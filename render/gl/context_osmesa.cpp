@@ -10,6 +10,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/gl/context_backends.h"
+#include "render/support/library_memory.h"
 
 namespace penumbra::gl {
 namespace {
@@ -40,7 +41,7 @@ const Library& library() {
     Library lib;
     for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"})
       if ((lib.handle = dlopen(name, RTLD_NOW | RTLD_LOCAL))) break;
-    if (!lib.handle) require_memory_for_library(dlerror());
+    if (!lib.handle) detail::require_memory_for_library(dlerror());
     if (!lib.handle)
       throw SystemError(
           "cannot open libOSMesa.so.8: install the Debian package libosmesa6, or use option backend egl");

@@ -119,6 +119,17 @@ RayGroup::RayGroup(RTCDevice device, const Scene& scene_of, const RayPartGroup& 
   }
 }
 
+RTCDevice new_ray_device() {
+  RTCDevice device = rtcNewDevice(nullptr);
+  if (!device) {
+    const RTCError error = rtcGetDeviceError(nullptr);
+    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw SystemError("Embree does not start: no device (error " + std::to_string(error) + ")");
+  }
+  rtcSetDeviceErrorFunction(device, throw_embree_error, nullptr);
+  return device;
+}
+
 RayGroup::~RayGroup() {
   if (scene != nullptr) rtcReleaseScene(scene);
 }
@@ -126,13 +137,7 @@ RayGroup::~RayGroup() {
 }  // namespace detail
 
 RayScene::Impl::Impl(const Scene& scene, tbb::task_arena& threads) {
-  device = rtcNewDevice(nullptr);
-  if (!device) {
-    const RTCError error = rtcGetDeviceError(nullptr);
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    throw SystemError("Embree does not start: no device (error " + std::to_string(error) + ")");
-  }
-  rtcSetDeviceErrorFunction(device, detail::throw_embree_error, nullptr);
+  device = detail::new_ray_device();
   threads.execute([&] {
     for (const bool casts : {true, false})
       for (const detail::RayPartGroup& group : detail::group_by_scale(scene, casts))

@@ -39,6 +39,9 @@ struct RayGeometry {
   float border;
 };
 
+/// A device whose errors are exceptions. Throws SystemError, std::bad_alloc.
+RTCDevice new_ray_device();
+
 struct RayGroup {
   RayGroup(RTCDevice device, const Scene& scene, const RayPartGroup& parts);
   ~RayGroup();

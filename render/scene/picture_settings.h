@@ -33,6 +33,8 @@ struct PictureSettings {
   Background background{};
   /// Samples along each side of a pixel. A wish: programs hand it to RenderOptions.
   int antialias = 1;
+  /// Disks and rectangles are seen as what they are: they have their radiance in front, and are black behind. Distant lights are not.
+  bool show_lights = false;
 };
 
 }  // namespace penumbra

@@ -49,12 +49,23 @@ struct SceneObject {
   }
 };
 
+/// A closed mesh that pictures show as tinted glass over what stands behind it. It hides no light and gets no shadow.
+struct GlassBody {
+  /// In world space.
+  TriangleMesh mesh{};
+  /// Linear RGB: the color of a way through it that is long. That of a short one is nearly what stands behind.
+  Vec3 tint{1.0};
+  /// The share of what stands behind that a way as long as the casters' diagonal hides, 0 to 1.
+  double density = 0.5;
+};
+
 struct Scene {
   /// At least one in a scene that was read.
   std::vector<Light> lights;
   Camera camera;
   std::vector<SceneObject> objects;
   PictureSettings picture{};
+  std::vector<GlassBody> glass{};
   /// The file as read, JSON, keys beginning with `x-` included; empty for a scene made by hand.
   std::string document;
   /// What was read for it: the scene's file, its meshes, their files of materials.

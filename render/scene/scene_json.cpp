@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "mesh/corner_normals.h"
 #include "penumbra/mesh/error.h"
 #include "render/scene/default_scene.h"
 #include "render/scene/scene_lights.h"
@@ -39,6 +40,15 @@ Camera read_camera(const SceneNode& node) {
   return camera;
 }
 
+constexpr double kSameSurface = 0.5;  // cosine of 60 degrees
+
+/// For a mesh whose file has none.
+void make_normals(SceneObject& object) {
+  const auto normals = corner_normals(object.mesh.positions(), object.mesh.triangles(), kSameSurface);
+  for (const auto& [a, b, c] : normals)
+    object.corner_normals.push_back({glm::vec3(a), glm::vec3(b), glm::vec3(c)});
+}
+
 /// Fills the object's mesh, the colors of its materials and its normals.
 void read_object_mesh(const SceneNode& node, const SceneNode& mesh_node, const std::filesystem::path& folder,
                       MeshCache& meshes, SceneObject& object) {
@@ -51,6 +61,7 @@ void read_object_mesh(const SceneNode& node, const SceneNode& mesh_node, const s
     take_material_colors(entry, object);
     const auto smooth = node.find("smooth");
     if (!smooth || smooth->boolean()) take_normals(entry, transform, object);
+    if (smooth && smooth->boolean() && object.corner_normals.empty()) make_normals(object);
     const std::string summary = summary_of(entry, object.mesh.report());
     if (!summary.empty()) mesh_node.warn(name + ": " + summary);
   } catch (const MeshError& e) {

@@ -30,8 +30,11 @@ std::vector<std::string_view> light_field_extensions();
 
 /// Writes what the extension names: VTK's image data (.vti); an array for NumPy (.npy) of shape (z, y, x), float32; or a grid `seen` of
 /// OpenVDB (.vdb) with background 1, tiles where 0 or 1 fills them, and the field's place in space. The file is written whole or not at
-/// all. Throws UsageError for another extension, and for .vdb where the library was built without OpenVDB; SystemError where
-/// writing fails.
+/// all. OpenVDB is opened by the first .vdb, by a module that the loader must find (docs/library.md). Throws UsageError for another
+/// extension; SystemError where OpenVDB or its module is not installed, or writing fails.
 void write_light_field(const std::filesystem::path& path, const LightField& field);
+
+/// Throws what write_light_field would throw for such a path whatever the field: to be called before a long computation.
+void require_light_field_format(const std::filesystem::path& path);
 
 }  // namespace penumbra

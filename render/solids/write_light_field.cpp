@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <ostream>
 #include <sstream>
-#include <utility>
 
 #include "mesh/io/formats.h"
 #include "mesh/io/write_file.h"
@@ -55,21 +54,30 @@ void write_vti(std::ostream& out, const LightField& field) {
   out << "\n</AppendedData>\n</VTKFile>\n";
 }
 
+using Write = void (*)(std::ostream&, const LightField&);
+
+Write writer_for(const std::filesystem::path& path) {
+  const std::string extension = detail::lower_extension(path);
+  if (extension == ".vti") return write_vti;
+  if (extension == ".npy") return write_npy;
+  if (extension == ".vdb") return detail::write_vdb;
+  throw UsageError(path.string() +
+                   ": fields are written as .vti, .npy or .vdb; choose one of these extensions");
+}
+
 }  // namespace
 
 std::vector<std::string_view> light_field_extensions() {
   return {".vti", ".npy", ".vdb"};
 }
 
+void require_light_field_format(const std::filesystem::path& path) {
+  if (writer_for(path) == detail::write_vdb) detail::require_vdb();
+}
+
 void write_light_field(const std::filesystem::path& path, const LightField& field) {
-  const std::string extension = detail::lower_extension(path);
-  using Write = void (*)(std::ostream&, const LightField&);
-  const std::pair<std::string_view, Write> formats[] = {
-      {".vti", write_vti}, {".npy", write_npy}, {".vdb", detail::write_vdb}};
-  for (const auto& [known, write] : formats)
-    if (extension == known) return write_file(path, [&](std::ostream& out) { write(out, field); });
-  throw UsageError(path.string() +
-                   ": fields are written as .vti, .npy or .vdb; choose one of these extensions");
+  require_light_field_format(path);
+  write_file(path, [&](std::ostream& out) { writer_for(path)(out, field); });
 }
 
 }  // namespace penumbra

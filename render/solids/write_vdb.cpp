@@ -1,54 +1,46 @@
 #include "render/solids/write_vdb.h"
 
+#include <dlfcn.h>
+
+#include <string>
+
 #include "penumbra/mesh/error.h"
-
-#ifdef PENUMBRA_HAS_OPENVDB
-
-#include <openvdb/io/Stream.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/Dense.h>
-#include <openvdb/tools/Prune.h>
+#include "render/solids/vdb/vdb_module.h"
+#include "render/support/library_memory.h"
 
 namespace penumbra::detail {
 namespace {
 
-/// Index coordinates to the scene's: rows times a matrix, as OpenVDB has it.
-openvdb::math::Transform::Ptr transform_of(const LightField& field) {
-  const Vec3 &o = field.origin, &s = field.step;
-  const double rows[16] = {s.x, 0.0, 0.0, 0.0, 0.0, s.y, 0.0, 0.0, 0.0, 0.0, s.z, 0.0, o.x, o.y, o.z, 1.0};
-  return openvdb::math::Transform::createLinearTransform(openvdb::Mat4R(rows));
+/// dlerror's reason begins with the file that is missing: the module itself, or OpenVDB or another library that it needs.
+[[noreturn]] void fail_to_open(const std::string& reason) {
+  require_memory_for_library(reason.c_str());
+  const bool lacks_module = reason.starts_with(PENUMBRA_VDB_MODULE);
+  throw SystemError(std::string("fields as .vdb need OpenVDB: install the Debian package libopenvdb-dev") +
+                    (lacks_module ? ", build Penumbra again and install it with its module" : "") +
+                    "; or write .vti or .npy (" + reason + ')');
+}
+
+/// The loader looks for the module where the program's run path says. It stays open: OpenVDB's registries cannot be taken down.
+WriteVdb* open_module() {
+  void* module = dlopen(PENUMBRA_VDB_MODULE, RTLD_NOW | RTLD_LOCAL);
+  void* function = module != nullptr ? dlsym(module, kWriteVdbSymbol) : nullptr;
+  if (function == nullptr) fail_to_open(dlerror());
+  return reinterpret_cast<WriteVdb*>(function);
+}
+
+WriteVdb& module_function() {
+  static WriteVdb* const opened = open_module();
+  return *opened;
 }
 
 }  // namespace
 
-/// What is wholly lit is background. Umbra stays active, so that the grid tells it from light; where it fills a leaf it is a tile.
+void require_vdb() {
+  module_function();
+}
+
 void write_vdb(std::ostream& out, const LightField& field) {
-  openvdb::initialize();
-  using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
-  const openvdb::CoordBBox box({0, 0, 0}, {field.counts[0] - 1, field.counts[1] - 1, field.counts[2] - 1});
-  const Dense dense(box, const_cast<float*>(field.seen.data()));  // it is only read
-  const openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(1.0f);
-  openvdb::tools::copyFromDense(dense, *grid, 0.0f);
-  openvdb::tools::prune(grid->tree());
-  grid->setName("seen");
-  grid->setGridClass(openvdb::GRID_FOG_VOLUME);
-  grid->setTransform(transform_of(field));
-  openvdb::io::Stream(out).write(openvdb::GridPtrVec{grid});
+  module_function()(out, field);
 }
 
 }  // namespace penumbra::detail
-
-#else
-
-namespace penumbra::detail {
-
-void write_vdb(std::ostream&, const LightField&) {
-  throw UsageError(
-      "fields as .vdb need OpenVDB, which was missing when Penumbra was built; install libopenvdb-dev and "
-      "build again, or "
-      "write .vti or .npy");
-}
-
-}  // namespace penumbra::detail
-
-#endif

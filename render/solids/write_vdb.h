@@ -1,4 +1,4 @@
-// Fields as grids of OpenVDB.
+// Fields as grids of OpenVDB, by the module of vdb/.
 #pragma once
 
 #include <iosfwd>
@@ -7,7 +7,10 @@
 
 namespace penumbra::detail {
 
-/// Throws UsageError where OpenVDB was missing when the library was built.
+/// Opens the module, once. Throws SystemError where it, or OpenVDB, is not installed.
+void require_vdb();
+
+/// The same, and writes the field.
 void write_vdb(std::ostream& out, const LightField& field);
 
 }  // namespace penumbra::detail

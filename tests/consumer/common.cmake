@@ -10,10 +10,10 @@ macro(use_folder name)
   file(MAKE_DIRECTORY ${FOLDER})
 endmacro()
 
-# try_program(PROGRAM): runs it and looks at the libraries that it links: one of the pattern LINKED (which shows that
+# try_program(PROGRAM): runs it with ARGUMENTS and looks at the libraries that it links: one of the pattern LINKED (which shows that
 # looking works), none of the pattern NOT_LINKED.
 function(try_program program)
-  run(${program})
+  run(${program} ${ARGUMENTS})
   execute_process(COMMAND ldd ${program} OUTPUT_VARIABLE libraries COMMAND_ERROR_IS_FATAL ANY)
   if(NOT libraries MATCHES "lib(${LINKED})[A-Za-z0-9]*[-.]")
     message(FATAL_ERROR "${program} does not link ${LINKED}:\n${libraries}")

@@ -78,6 +78,7 @@ const std::vector<Rule>& rules() {
       {"Embree", "(render/rays/|apps/cli/study/peers/)", kAlone, "<embree\\d*/", {"render/receivers/receivers.cpp", "embree3/rtcore.h", false}},
       {"Embree's part of the ray scene", "render/rays/", kAlone, "render/rays/ray_scene_impl\\.",
        {"render/silhouette/passes.cpp", "render/rays/ray_scene_impl.h"}},
+      {"OpenVDB", "render/solids/vdb/", kAlone, "<openvdb/", {"render/solids/write_vdb.cpp", "openvdb/openvdb.h", false}},
       {"OpenGL", "render/gl/", kAlone, "<(GL|EGL|KHR)/", {"render/d_buffer/d_buffer.cpp", "GL/glcorearb.h", false}},
       {"GLFW", "apps/viewer/", kAlone, "<GLFW/", {"render/gl/context_egl.cpp", "GLFW/glfw3.h", false}},
       {"Dear ImGui", "apps/viewer/", kAlone, "<imgui", {"apps/common/options.h", "imgui.h", false}},

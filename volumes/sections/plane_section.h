@@ -45,9 +45,9 @@ struct NamedSection {
 /// The extensions that write_sections knows: lower case, with the dot.
 std::vector<std::string_view> section_extensions();
 
-/// Writes sections by one plane: SVG, seen against the normal, in scene units, each section a path with its name; or PLY with
-/// vertices and edges in space, `section` of each edge being the number of its section. The file is written whole or not at all. Throws
-/// UsageError for another extension, SystemError where writing fails.
+/// Writes sections by one plane: SVG, a drawing seen against the normal, each section a path in scene units, the largest first, with names,
+/// areas and a scale bar; or PLY with vertices and edges in space, `section` of each edge being the number of its section. The file is
+/// written whole or not at all. Throws UsageError for another extension, SystemError where writing fails.
 void write_sections(const std::filesystem::path& path, std::span<const NamedSection> sections,
                     const SectionPlane& plane);
 

@@ -44,6 +44,7 @@ std::array<int, 3> counts_for(const Bounds& box, const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
   require_extension("--output", arguments.output, light_field_extensions(), false);
+  require_light_field_format(arguments.output);
   require_writable(arguments.output);
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);

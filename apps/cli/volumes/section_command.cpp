@@ -17,8 +17,8 @@ constexpr const char* kFooter = R"(Examples:
   penumbra volumes scene.json --umbra u.ply --penumbra p.ply
   penumbra section p.ply u.ply --point 0,0,0 --output shadow.svg
   penumbra section p.ply --point 0,1,0 --normal 1,0,0 --output wall.ply --report -
-SVG shows the plane against its normal, in scene units, one path a mesh. PLY has vertices and edges in space, each edge with the
-number of its mesh. Closed surfaces give closed curves. Area and length are in scene units.)";
+SVG shows the plane against its normal, in scene units, one path a mesh, the largest first, with areas and a scale bar. PLY has
+vertices and edges in space, each edge with the number of its mesh. Closed surfaces give closed curves. Area and length are in scene units.)";
 
 struct Arguments {
   CommonOptions common;

@@ -36,7 +36,8 @@ TEST_F(PictureOptionsTest, ChangeNothingThatIsMeasured) {
     const Image plain = drawn(scene, {"--antialias", "1", "--ambient", "0"});
     for (const Strings& more :
          {Strings{}, Strings{"--antialias", "3"}, Strings{"--ambient", "0.2"}, Strings{"--shadow-catcher"},
-          Strings{"--antialias", "2", "--ambient", "1", "--shadow-catcher"}}) {
+          Strings{"--antialias", "2", "--ambient", "1", "--shadow-catcher"},
+          Strings{"--show-umbra", mesh_, "--show-penumbra", mesh_, "--show-lights"}}) {
       const Image image = drawn(scene, more);
       ASSERT_EQ(image.channels.size(), plain.channels.size());
       for (const auto& [name, values] : plain.channels)
@@ -45,6 +46,18 @@ TEST_F(PictureOptionsTest, ChangeNothingThatIsMeasured) {
         }
     }
   }
+}
+
+TEST_F(PictureOptionsTest, ShowSolidsAsGlass) {
+  ASSERT_EQ(run({"volumes", scene_, "--umbra", path("u.ply"), "--penumbra", path("p.ply")}).code, 0);
+  const Image plain = drawn(scene_, {});
+  const Image umbra = drawn(scene_, {"--show-umbra", path("u.ply")});
+  const Image both = drawn(scene_, {"--show-umbra", path("u.ply"), "--show-penumbra", path("p.ply")});
+  EXPECT_NE(umbra.channels, plain.channels);
+  EXPECT_NE(both.channels, umbra.channels);
+  const Outcome missing = draw(scene_, "x.png", {"--show-umbra", path("none.ply")});
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_NE(missing.err.find("none.ply"), std::string::npos);
 }
 
 TEST_F(PictureOptionsTest, AreNotUsedByScenesThatDoNotAsk) {

@@ -117,6 +117,20 @@ TEST_F(MeshFilesTest, NormalsGoWithTheObject) {
   EXPECT_EQ(load_scene(folder_ / "square.obj").scene.objects.back().corner_normals.size(), 4u);
 }
 
+TEST_F(MeshFilesTest, NormalsAreMadeWhereAFileHasNoneAndTheSceneAsks) {
+  // Two faces that meet at 45 degrees, and one that stands upright on them.
+  write("square.obj", "v 0 0 0\nv 1 0 0\nv 0 0 -1\nv 1 1 1\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 3 5 1\n");
+  EXPECT_TRUE(scene({}).scene.objects[0].corner_normals.empty());
+  EXPECT_TRUE(scene({{"smooth", false}}).scene.objects[0].corner_normals.empty());
+  const auto normals = scene({{"smooth", true}}).scene.objects[0].corner_normals;
+  ASSERT_EQ(normals.size(), 3u);
+  EXPECT_EQ(normals[0][0], normals[1][0]);
+  EXPECT_NE(normals[0][0], normals[0][2]);
+  EXPECT_EQ(normals[2][0], normals[2][2]);
+  for (const auto& corners : normals)
+    for (const glm::vec3& n : corners) EXPECT_NEAR(glm::length(n), 1.0f, 1e-6f);
+}
+
 TEST_F(MeshFilesTest, WarnsOfWhatIsIgnored) {
   write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1/1 2/1/1 3/1/1\n");
   const LoadedScene loaded = scene({});

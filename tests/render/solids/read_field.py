@@ -70,9 +70,6 @@ def main():
         for kind, path in files.items():
             done = subprocess.run([penumbra, "field", scene, "--grid", str(GRID), "--output", str(path)],
                                   capture_output=True, text=True)
-            if kind == "vdb" and "OpenVDB" in done.stderr:
-                print("built without OpenVDB")
-                return 77
             assert done.returncode == 0, done.stderr
         counts, values = expected(files["npy"])
         assert max(counts) == GRID and 0.0 in values and 1.0 in values

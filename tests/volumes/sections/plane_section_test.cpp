@@ -71,15 +71,19 @@ TEST(PlaneSection, RefusesAPlaneWithoutNormal) {
 
 TEST(PlaneSection, IsWrittenAsCurves) {
   const SectionPlane plane{Vec3(0.0, 0.2, 0.0)};
-  const std::vector<NamedSection> sections{{"a<b", section_of(make_box(Vec3(0.0), Vec3(1.0)), plane)},
-                                           {"ball", section_of(make_icosphere(Vec3(0.0), 0.5, 2), plane)}};
+  const std::vector<NamedSection> sections{{"ball", section_of(make_icosphere(Vec3(0.0), 0.5, 2), plane)},
+                                           {"a<b", section_of(make_box(Vec3(0.0), Vec3(1.0)), plane)}};
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   const std::filesystem::path svg = folder / "penumbra_section.svg", ply = folder / "penumbra_section.ply";
   write_sections(svg, sections, plane);
   write_sections(ply, sections, plane);
   const std::string picture = text_of(svg), lines = text_of(ply);
   EXPECT_NE(picture.find("<title>a&lt;b</title>"), std::string::npos);
-  EXPECT_NE(picture.find("viewBox=\"-1.1 -1.1 2.2 2.2\""), std::string::npos) << picture.substr(0, 200);
+  // In scene units; the larger one first, so that it covers nothing.
+  EXPECT_NE(picture.find("viewBox=\"-1 -1 2 2\""), std::string::npos) << picture.substr(0, 400);
+  EXPECT_LT(picture.find("<title>a&lt;b</title>"), picture.find("<title>ball</title>"));
+  EXPECT_NE(picture.find(">a&lt;b<tspan fill=\"#777\">, area 4</tspan>"), std::string::npos);
+  EXPECT_NE(picture.find(">0.5 scene units</text>"), std::string::npos);
   std::size_t points = 0;
   for (const NamedSection& s : sections) points += s.section.curves.at(0).points.size();
   const std::string count = std::to_string(points);
