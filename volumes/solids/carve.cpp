@@ -8,12 +8,12 @@ namespace penumbra::detail {
 namespace {
 
 /// The first pull, of an edge, and how many times as far each next one is.
-constexpr double kFirstPull = 1.0 / 160, kPullGrowth = 1.6;
+constexpr double kFirstPull = 1.0 / 200, kPullGrowth = 1.6;
 /// Where an edge begins that is crossed since a grid point changed sides: so far from that point.
 constexpr double kStart = 1.0 / 16;
 /// Of the grid's spacing: so far outside of triangles that cannot be proved points are tried, so that what they bulge between the
 /// points is in umbra as well.
-constexpr double kMargin = 0.055;
+constexpr double kMargin = 0.05;
 
 /// Moves what bad triangles touch.
 class Carver {

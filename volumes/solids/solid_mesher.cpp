@@ -24,7 +24,7 @@ constexpr double kCoarsest = 2.0, kFinest = 1.0, kThickness = 0.22;
 constexpr double kNearWall =
     4e-3;  ///< of the tolerance: grid points so near to the light's plane are outside
 constexpr double kFirstLook = 4.0;    ///< of the tolerance: the grid that tells volume and area
-constexpr double kSimplified = 0.07;  ///< of the spacing: so far may simplification move a point
+constexpr double kSimplified = 0.075;  ///< of the spacing: so far may simplification move a point
 constexpr int kProofDepth = 1;        ///< so often are triangles divided where they cannot be proved whole
 
 class Mesher {
