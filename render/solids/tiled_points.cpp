@@ -1,5 +1,10 @@
 #include "render/solids/tiled_points.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "render/casters_impl.h"
+
 namespace penumbra::detail {
 namespace {
 
@@ -23,14 +28,21 @@ std::vector<float> seen_from(const Casters& casters, const LightShape& light, st
     return at / kTile * width + tile * kTile + at % kTile;
   };
   std::vector<Vec3> pixels(kTile * width, points.back());
-  for (std::size_t i = 0; i < points.size(); ++i) pixels[place(i)] = points[i];
+  const auto for_each_point = [&](const auto& visit) {
+    casters.impl().threads->execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) visit(i);
+      });
+    });
+  };
+  for_each_point([&](std::size_t i) { pixels[place(i)] = points[i]; });
   VisibilityOptions options;
   options.options["silhouette-tolerance"] = 0.0;
   const Receivers receivers{
       .points = pixels, .width = static_cast<int>(width), .height = static_cast<int>(kTile)};
   const std::vector<float> seen = visibility(casters, light, receivers, options).visibility;
   std::vector<float> out(points.size());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = seen[place(i)];
+  for_each_point([&](std::size_t i) { out[i] = seen[place(i)]; });
   return out;
 }
 

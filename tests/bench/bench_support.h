@@ -117,6 +117,8 @@ void bench_price(Record& record, const SceneNames&);
 void bench_solids(Record& record, const SceneNames& scenes);
 /// The same file: their surfaces by CGAL, a million points each by rays in double; minutes a scene.
 void bench_solids_judge(Record& record, const SceneNames& scenes);
+/// Fields of 256³ points.
+void bench_fields(Record& record, const SceneNames& scenes);
 
 /// volumes_bench.cpp: cells, triangles and time of penumbra and umbra volumes.
 void bench_volumes(Record& record, const SceneNames& scenes);

@@ -73,6 +73,7 @@ const std::vector<Part>& parts() {
         "decorativePlant-medium", "building", "tree"}},
       {"solids", bench_solids, solid_scenes()},
       {"solids-judge", bench_solids_judge, solid_scenes()},
+      {"fields", bench_fields, {"bunny-small", "bunny-medium", "bunny-large", "bunny-sun"}},
       {"judge", bench_judge, {}},
       {"growth", bench_growth, {}},
       {"occlusion", bench_occlusion_textures, {}}};

@@ -249,6 +249,12 @@ def solids(part):
                     [[scene] + kind(scene, "umbra") + kind(scene, "penumbra") for scene in scenes_of(part, "/umbra/time")])
 
 
+def fields(part):
+    return markdown(["scene", "umbra", "penumbra", "s"],
+                    [[scene, percent(part.median(f"{scene}/field/umbra")), percent(part.median(f"{scene}/field/penumbra")),
+                      number(part.median(f"{scene}/field/time") / 1000.0)] for scene in scenes_of(part, "/field/time")])
+
+
 def judged_solids(part):
     def both(scene, figure):
         return sum(part.median(f"{scene}/{kind}/{figure}") or 0 for kind in ("umbra", "penumbra"))
@@ -306,6 +312,7 @@ TABLES = {
     "volumes": lambda: first_machine("volumes", volumes),
     "umbra": lambda: each_machine("volumes", umbras),
     "solids": lambda: each_machine("solids", solids),
+    "fields": lambda: each_machine("fields", fields),
     "solids-judge": lambda: first_machine("solids-judge", judged_solids),
 }
 

@@ -14,13 +14,17 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 color;
 uniform mat4 to_clip;
 uniform vec3 axis;    // unit vector along which things are cut
-uniform float nearer; // towards the eye, in parts of the depth
+uniform vec3 eye;
+uniform float nearer; // parts of the way to the eye
 uniform vec2 shift;   // in clip units
 out vec4 shade;
 out float along;
 void main() {
   gl_Position = to_clip * vec4(position, 1.0);
-  gl_Position.z -= nearer * gl_Position.w;
+  if (nearer > 0.0) {  // the same place in the picture
+    vec4 moved = to_clip * vec4(mix(position, eye, nearer), 1.0);
+    gl_Position.z = moved.z / moved.w * gl_Position.w;
+  }
   gl_Position.xy += shift * gl_Position.w;
   shade = color;
   along = dot(axis, position);
@@ -89,6 +93,8 @@ void OverlayPass::draw(const State& state, const Viewport& place) const {
   gl_.UniformMatrix4fv(program_.uniform("to_clip"), 1, GL_FALSE, matrix.data());
   gl_.Uniform3f(program_.uniform("axis"), static_cast<float>(cut.axis.x), static_cast<float>(cut.axis.y),
                 static_cast<float>(cut.axis.z));
+  gl_.Uniform3f(program_.uniform("eye"), static_cast<float>(camera.eye.x), static_cast<float>(camera.eye.y),
+                static_cast<float>(camera.eye.z));
   gl_.Uniform1f(program_.uniform("nearer"), 0.0f);
   gl_.Uniform2f(program_.uniform("shift"), 0.0f, 0.0f);
   gl_.Uniform1f(program_.uniform("cut"), 3e38f);
@@ -96,12 +102,12 @@ void OverlayPass::draw(const State& state, const Viewport& place) const {
   draw_list(scene_, GL_TRIANGLES);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.DepthMask(GL_FALSE);
-  gl_.Uniform1f(program_.uniform("nearer"), 1e-5f);
+  gl_.Uniform1f(program_.uniform("nearer"), 2e-4f);
   draw_list(faces_, GL_TRIANGLES);
   gl_.Uniform1f(program_.uniform("cut"), static_cast<float>(cut.most));
   draw_list(sheets_, GL_TRIANGLES);
   gl_.Uniform1f(program_.uniform("cut"), 3e38f);
-  gl_.Uniform1f(program_.uniform("nearer"), 4e-4f);
+  gl_.Uniform1f(program_.uniform("nearer"), 2e-3f);
   for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {0, 1}}) {  // core OpenGL draws lines one pixel wide
     gl_.Uniform2f(program_.uniform("shift"), 2.0f * static_cast<float>(x) / static_cast<float>(place.width),
                   2.0f * static_cast<float>(y) / static_cast<float>(place.height));
