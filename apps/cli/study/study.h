@@ -15,7 +15,7 @@ namespace penumbra::apps {
 struct StudyOptions {
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
-  /// Empty: every registered method.
+  /// Also names of peers. Empty: every registered method, and all peers.
   std::vector<std::string> methods{};
   StudyView view{};
   /// Timed frames a row.

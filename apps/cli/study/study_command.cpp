@@ -4,6 +4,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/study/peers/embree_loop.h"
+#include "apps/cli/study/peers/peer.h"
 #include "apps/cli/study/study.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
@@ -45,13 +46,20 @@ void require_scenes(const StudyOptions& study) {
       if (study.scenes[k].stem() == study.scenes[i].stem())
         throw UsageError("two scenes are called " + study.scenes[i].stem().string() + "; rename one");
   }
-  for (const std::string& method : study.methods) method_named(method);
+}
+
+/// Throws UsageError for what is neither a method nor a peer that is asked for.
+void require_methods(const StudyOptions& study) {
+  const std::vector<Peer> peers = study.peers ? all_peers() : std::vector<Peer>{};
+  for (const std::string& name : study.methods)
+    if (std::ranges::find(peers, name, &Peer::name) == peers.end()) method_named(name);
 }
 
 void run(Arguments& arguments, const CLI::App& command) {
   StudyOptions& study = arguments.study;
   if (study.peers) register_peers();
   require_scenes(study);
+  require_methods(study);
   if (study.quick) {
     study.view = kQuickView;
     study.memory = false;
@@ -103,9 +111,10 @@ void add_study_command(CLI::App& app) {
                    "Do not measure memory, for which each row draws a frame alone");
   command.add_flag("--growth", study.growth,
                    "Also how time grows: with light and size of the first scene, with the faces of a sphere");
-  command.add_flag(
-      "--peers", study.peers,
-      "Also a plain loop over Embree's rays, as its tutorial has it, and POV-Ray where it is installed");
+  command.add_flag("--peers", study.peers,
+                   "Also what people use instead: a plain loop over Embree's rays, and where they are "
+                   "installed POV-Ray and "
+                   "Blender's Cycles");
   command.add_option("--commit", study.commit, "What the page says of the program's sources")
       ->type_name("TEXT");
   add_common_options(command, arguments->common);

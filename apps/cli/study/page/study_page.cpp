@@ -1,8 +1,9 @@
-#include "apps/cli/study/study_page.h"
+#include "apps/cli/study/page/study_page.h"
 
 #include <fstream>
 #include <iterator>
 
+#include "apps/cli/study/page/base64.h"
 #include "mesh/io/write_file.h"
 
 namespace penumbra::apps {
@@ -14,26 +15,12 @@ constexpr const char* kScripts[] = {"uPlot.iife.min.js", "data.js",   "pictures.
                                     "tables.js",         "growth.js", "main.js"};
 constexpr const char* kStyles[] = {"uPlot.min.css", "page.css"};
 
-/// RFC 4648.
-std::string base64_of(const std::string& bytes) {
-  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k > bytes.size() ? '=' : kLetters[group >> (18 - 6 * k) & 63];
-  }
-  return out;
-}
-
 void add_picture(json& pictures, const std::filesystem::path& folder, const json& owner, const char* key) {
   if (!owner.contains(key)) return;
   const std::string name = owner[key];
   std::ifstream in(folder / name, std::ios::binary);
   if (!in) return;
-  pictures[name] = base64_of({std::istreambuf_iterator<char>(in), {}});
+  pictures[name] = base64_of(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
 json pictures_of(const StudyRecord& record) {
