@@ -23,15 +23,18 @@ std::string missing() {
 }
 
 std::vector<Setting> settings() {
-  std::vector<Setting> out;
-  for (const std::uint64_t samples : {16u, 64u, 256u})
-    out.push_back(
-        {.method = "cycles", .options = {{"samples", samples}}, .varied = samples == 64 ? "" : "samples"});
-  return out;
+  const auto setting = [](std::uint64_t samples, const char* weights, const char* varied) {
+    return Setting{.method = "cycles",
+                   .options = {{"samples", samples}, {"weights", std::string(weights)}},
+                   .varied = varied};
+  };
+  return {setting(64, "even", ""), setting(16, "even", "samples"), setting(256, "even", "samples"),
+          setting(64, "irradiance", "weights")};
 }
 
-std::string number_of(const Setting& setting) {
-  return std::to_string(integer_of(setting.options, "samples"));
+/// As cycles.py has them.
+std::string name_of(const Setting& setting) {
+  return std::to_string(integer_of(setting.options, "samples")) + "-" + word_of(setting.options, "weights");
 }
 
 /// Renders all settings. What Blender says of them.
@@ -54,7 +57,7 @@ json render_all(const PeerCase& given, std::span<const Setting> settings,
                                  folder.string(),
                                  std::to_string(given.threads),
                                  std::to_string(given.rounds)};
-  for (const Setting& setting : settings) words.push_back(number_of(setting));
+  for (const Setting& setting : settings) words.push_back(name_of(setting));
   if (!run_program("blender", words, Stream::kError, kMostSeconds)) throw PeerError("Blender failed");
   std::ifstream in(folder / "times.json");
   json said = json::parse(in, nullptr, false);
@@ -69,19 +72,29 @@ std::vector<float> read_white(const std::filesystem::path& path, const Image& ex
   return image.at("G");
 }
 
+/// Of one setting's two pictures. Where points of the light weigh alike, one that is above the horizon and that nothing hides
+/// adds the same everywhere: the most that is found. Points below the horizon add nothing to either picture.
+std::vector<float> visibility_of(const PeerCase& given, const Setting& setting,
+                                 const std::filesystem::path& folder) {
+  const std::string name = name_of(setting) + ".exr";
+  const std::vector<float> shadowed = read_white(folder / ("shadowed-" + name), given.unshadowed);
+  std::vector<float> lit = read_white(folder / ("lit-" + name), given.unshadowed);
+  std::vector<float> horizon = given.unshadowed.at("visibility");
+  if (word_of(setting.options, "weights") == "even") {
+    lit.assign(lit.size(), *std::ranges::max_element(lit));
+    horizon.assign(horizon.size(), 1.0f);
+  }
+  return visibility_of_ratio(shadowed, lit, horizon);
+}
+
 std::vector<Measured> measure(const PeerCase& given, std::span<const Setting> settings) {
   const TemporaryFolder folder("cycles");
   const json said = render_all(given, settings, folder.path());
   std::vector<Measured> out;
-  for (const Setting& setting : settings) {
-    const std::string number = number_of(setting);
-    const std::vector<float> shadowed =
-        read_white(folder.path() / ("shadowed-" + number + ".exr"), given.unshadowed);
-    const std::vector<float> lit = read_white(folder.path() / ("lit-" + number + ".exr"), given.unshadowed);
-    out.push_back(peer_result(given, visibility_of_ratio(shadowed, lit, given.unshadowed.at("visibility")),
-                              said.at("times").at(number).get<std::vector<double>>(), "render",
+  for (const Setting& setting : settings)
+    out.push_back(peer_result(given, visibility_of(given, setting, folder.path()),
+                              said.at("times").at(name_of(setting)).get<std::vector<double>>(), "render",
                               "Cycles of Blender " + said.at("version").get<std::string>()));
-  }
   return out;
 }
 

@@ -1,9 +1,10 @@
 # Run by Blender: penumbra study --peers. Renders one scene by Cycles, with and without shadows.
 #
-# usage: blender --background --factory-startup --python cycles.py -- SCENE.json FOLDER THREADS ROUNDS SAMPLES...
+# usage: blender --background --factory-startup --python cycles.py -- SCENE.json FOLDER THREADS ROUNDS SETTING...
 #
-# Writes FOLDER/shadowed-N.exr and FOLDER/lit-N.exr for each number N of samples, and last FOLDER/times.json: milliseconds
-# of frames with shadows, at most ROUNDS of each number.
+# A setting is SAMPLES-WEIGHTS: 64-irradiance is Blender's light on a diffuse surface, 64-even adds every point of the light
+# alike. Writes FOLDER/shadowed-SETTING.exr and FOLDER/lit-SETTING.exr, and last FOLDER/times.json: milliseconds of frames with
+# shadows, at most ROUNDS of each setting.
 import base64
 import json
 import math
@@ -26,14 +27,19 @@ def negative(v):
     return [-c for c in v]
 
 
-def white():
-    material = bpy.data.materials.new("white")
+def white(weights):
+    """Diffuse; or without the cosine, which a toon shader of the whole half-space has not."""
+    material = bpy.data.materials.new(weights)
     material.use_nodes = True
     nodes = material.node_tree.nodes
     nodes.clear()
-    diffuse, output = nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
-    diffuse.inputs["Color"].default_value = (1, 1, 1, 1)
-    material.node_tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
+    surface = nodes.new("ShaderNodeBsdfDiffuse" if weights == "irradiance" else "ShaderNodeBsdfToon")
+    surface.inputs["Color"].default_value = (1, 1, 1, 1)
+    if weights == "even":
+        surface.component = "DIFFUSE"
+        surface.inputs["Size"].default_value, surface.inputs["Smooth"].default_value = 1, 0
+    output = nodes.new("ShaderNodeOutputMaterial")
+    material.node_tree.links.new(surface.outputs[0], output.inputs["Surface"])
     return material
 
 
@@ -67,6 +73,23 @@ def add_camera(scene, given):
     scene.camera = made
 
 
+def weigh_evenly(light):
+    """Emission times d² / cos at the light, so that equal areas add equally. Used where light.use_nodes is set."""
+    light.use_nodes = True
+    nodes, link = light.node_tree.nodes, light.node_tree.links.new
+    emission = next(node for node in nodes if node.type == "EMISSION")
+    geometry, falloff = nodes.new("ShaderNodeNewGeometry"), nodes.new("ShaderNodeLightFalloff")
+    cosine, size, share = nodes.new("ShaderNodeVectorMath"), nodes.new("ShaderNodeMath"), nodes.new("ShaderNodeMath")
+    cosine.operation, size.operation, share.operation = "DOT_PRODUCT", "ABSOLUTE", "DIVIDE"
+    falloff.inputs["Strength"].default_value = 1
+    link(geometry.outputs["Normal"], cosine.inputs[0])
+    link(geometry.outputs["Incoming"], cosine.inputs[1])
+    link(cosine.outputs["Value"], size.inputs[0])
+    link(falloff.outputs["Constant"], share.inputs[0])
+    link(size.outputs[0], share.inputs[1])
+    link(share.outputs[0], emission.inputs["Strength"])
+
+
 def add_light(scene, given):
     distant = given["kind"] == "distant"
     light = bpy.data.lights.new("light", "SUN" if distant else "AREA")
@@ -77,12 +100,14 @@ def add_light(scene, given):
         light.shape, light.size = "DISK", 2 * given["radius"]
         light.energy = 100 * given["distance"] ** 2
         light.spread = math.pi
+        weigh_evenly(light)
     light.cycles.max_bounces = 0
     light.cycles.use_multiple_importance_sampling = False
     made = bpy.data.objects.new("light", light)
     made.matrix_world = matrix_of(given["u"], given["v"], negative(given["normal"]), given["center"])
     made.visible_camera = False
     scene.collection.objects.link(made)
+    return light
 
 
 def set_up(scene, width, height, threads):
@@ -127,26 +152,30 @@ def save(scene, path):
 
 
 def main():
-    given_path, folder, threads, rounds, *numbers = sys.argv[sys.argv.index("--") + 1:]
+    given_path, folder, threads, rounds, *settings = sys.argv[sys.argv.index("--") + 1:]
     given, folder = json.loads(pathlib.Path(given_path).read_text()), pathlib.Path(folder)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     set_up(scene, given["width"], given["height"], int(threads))
-    material = white()
-    objects = [(add_object(scene, one, material), one["casts"]) for one in given["objects"]]
+    materials = {weights: white(weights) for weights in ("irradiance", "even")}
+    objects = [(add_object(scene, one, materials["even"]), one["casts"]) for one in given["objects"]]
     add_camera(scene, given["camera"])
-    add_light(scene, given["light"])
+    light = add_light(scene, given["light"])
     times = {}
     for shadows in False, True:
         for made, casts in objects:
             made.visible_shadow = shadows and casts
-        for number in numbers:
-            scene.cycles.samples = int(number)
+        for setting in settings:
+            number, weights = setting.split("-")
+            scene.cycles.samples = int(number) if shadows or weights != "even" else 1  # more tell no more
             scene.update_tag()  # else Blender renders with the number before
+            light.use_nodes = weights == "even" and light.type == "AREA"
+            for made, _ in objects:
+                made.data.materials[0] = materials[weights]
             first = render_ms()  # which makes the hierarchy, where that is missing
             if shadows:
-                times[number] = frames(first, int(rounds))
-            save(scene, folder / f"{'shadowed' if shadows else 'lit'}-{number}.exr")
+                times[setting] = frames(first, int(rounds))
+            save(scene, folder / f"{'shadowed' if shadows else 'lit'}-{setting}.exr")
     (folder / "times.json").write_text(json.dumps({"version": bpy.app.version_string, "times": times}))
 
 
