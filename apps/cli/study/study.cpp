@@ -41,7 +41,7 @@ StudyOptions for_growth(StudyOptions options) {
 std::vector<Peer> peers_at_hand(const StudyOptions& options) {
   std::vector<Peer> peers;
   if (!options.peers) return peers;
-  for (Peer& peer : all_peers()) {
+  for (Peer& peer : all_peers(options.three)) {
     if (!options.methods.empty() && std::ranges::find(options.methods, peer.name) == options.methods.end())
       continue;
     const std::string reason = peer.missing();

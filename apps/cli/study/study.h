@@ -29,6 +29,8 @@ struct StudyOptions {
   bool growth = false;
   /// Also what people use instead (peers/). Those that are methods are to be registered before.
   bool peers = false;
+  /// The folder of npm's package three, for the peer that needs it; may be empty.
+  std::filesystem::path three{};
   /// What the page says of the program's sources.
   std::string commit{};
 };

@@ -50,7 +50,7 @@ void require_scenes(const StudyOptions& study) {
 
 /// Throws UsageError for what is neither a method nor a peer that is asked for.
 void require_methods(const StudyOptions& study) {
-  const std::vector<Peer> peers = study.peers ? all_peers() : std::vector<Peer>{};
+  const std::vector<Peer> peers = study.peers ? all_peers(study.three) : std::vector<Peer>{};
   for (const std::string& name : study.methods)
     if (std::ranges::find(peers, name, &Peer::name) == peers.end()) method_named(name);
 }
@@ -111,10 +111,14 @@ void add_study_command(CLI::App& app) {
                    "Do not measure memory, for which each row draws a frame alone");
   command.add_flag("--growth", study.growth,
                    "Also how time grows: with light and size of the first scene, with the faces of a sphere");
-  command.add_flag("--peers", study.peers,
-                   "Also what people use instead: a plain loop over Embree's rays, and where they are "
-                   "installed POV-Ray and "
-                   "Blender's Cycles");
+  command.add_flag(
+      "--peers", study.peers,
+      "Also what people use instead: a plain loop over Embree's rays, and where they are installed "
+      "POV-Ray, Blender's Cycles and three.js");
+  command
+      .add_option("--three", study.three,
+                  "With --peers: the folder of npm's package three, for three.js's soft shadows in Chromium")
+      ->type_name("DIR");
   command.add_option("--commit", study.commit, "What the page says of the program's sources")
       ->type_name("TEXT");
   add_common_options(command, arguments->common);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "apps/cli/study/page/base64.h"
 #include "apps/cli/study/peers/peer.h"
 #include "penumbra/render/renderer.h"
 #include "tests/apps/cli/program.h"
@@ -40,6 +41,14 @@ TEST(StudyPeers, ARatioOfPicturesIsVisibility) {
   EXPECT_GT(at_horizon, 10u);
 }
 
+TEST(StudyPeers, Base64GoesThereAndBack) {
+  for (const std::string& bytes :
+       {std::string(), std::string("a"), std::string("ab"), std::string("\0\xff~", 3)})
+    EXPECT_EQ(apps::from_base64(apps::base64_of(bytes)), bytes);
+  EXPECT_EQ(apps::base64_of("ab"), "YWI=");
+  EXPECT_EQ(apps::from_base64("Y\nWI="), "ab");
+}
+
 struct Expected {
   const char* peer;
   const char* scene;
@@ -47,11 +56,17 @@ struct Expected {
   double mean_difference;
 };
 
+/// As `./run study --peers` installs it, or what PENUMBRA_THREE says.
+std::filesystem::path three() {
+  if (const char* given = std::getenv("PENUMBRA_THREE")) return given;
+  return std::filesystem::path(PENUMBRA_DATA) / "../build/peers/node_modules/three";
+}
+
 class StudyPeer : public testing::TestWithParam<Expected> {};
 
 // Another program agrees with our own method but for its noise, and what is not comparable in it.
 TEST_P(StudyPeer, AgreesWhereItIsInstalled) {
-  const std::vector<apps::Peer> all = apps::all_peers();
+  const std::vector<apps::Peer> all = apps::all_peers(three());
   const auto peer = std::ranges::find(all, GetParam().peer, &apps::Peer::name);
   ASSERT_NE(peer, all.end());
   if (const std::string reason = peer->missing(); !reason.empty()) GTEST_SKIP() << reason;
@@ -77,7 +92,9 @@ TEST_P(StudyPeer, AgreesWhereItIsInstalled) {
 INSTANTIATE_TEST_SUITE_P(All, StudyPeer,
                          testing::Values(Expected{"povray", "torus-medium", 256, 0.02},
                                          Expected{"cycles", "torus-medium", 64, 0.002},
-                                         Expected{"cycles", "terrain-sun", 64, 0.003}),
+                                         Expected{"cycles", "terrain-sun", 64, 0.003},
+                                         Expected{"threejs-pcss", "cube-medium", 64, 0.01},
+                                         Expected{"threejs-pcss", "boxes-sun", 64, 0.01}),
                          [](const auto& parameter) {
                            std::string name = std::string(parameter.param.peer) + "_" + parameter.param.scene;
                            std::ranges::replace(name, '-', '_');
@@ -101,7 +118,7 @@ class StudyWithPrograms : public ProgramTest {
   }
   Outcome study() const {
     return run({"study", path("s.json"), "--output", path("out"), "--size", "64x48", "--frames", "1",
-                "--samples", "64", "--no-memory", "--peers", "--methods", "hard,povray,cycles"});
+                "--samples", "64", "--no-memory", "--peers", "--methods", "hard,povray,cycles,threejs-pcss"});
   }
   Json rows() const { return Json::parse(read_text(file("out") / "study.json"))["rows"]; }
 
@@ -116,7 +133,8 @@ TEST_F(StudyWithPrograms, ThatFailLoseNoOtherRows) {
   EXPECT_EQ(rows().size(), 1u);
   EXPECT_NE(r.err.find("no rows of povray: POV-Ray failed"), std::string::npos) << r.err;
   EXPECT_NE(r.err.find("no rows of cycles: Blender wrote no times"), std::string::npos) << r.err;
-  EXPECT_EQ(r.error_lines(), 2u) << r.err;
+  EXPECT_NE(r.err.find("no rows of threejs-pcss: --three is not given"), std::string::npos) << r.err;
+  EXPECT_EQ(r.error_lines(), 3u) << r.err;
 }
 
 TEST_F(StudyWithPrograms, ThatAreMissingAreNamed) {

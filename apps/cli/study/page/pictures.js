@@ -217,7 +217,8 @@
       document.getElementById("disk-figure").hidden = true;
       document.getElementById("probe").textContent = "Point at a pixel for its numbers. Wheel or pinch zooms, dragging moves; all three follow.";
     }
-    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame, RMSE ${Study.rmseText(row)} where the shadow is soft. ` +
+    const peer = row.method in Study.PEERS ? ` (${Study.PEERS[row.method].short})` : "";
+    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame${peer}, RMSE ${Study.rmseText(row)} where the shadow is soft. ` +
       `Stages, ms: ${Object.entries(row.stages).map(([stage, ms]) => `${stage.replaceAll("_", " ")} ${Study.digits(ms, 2)}`).join(", ")}.`;
     document.getElementById("pictures").dataset.row = row.key;
   };

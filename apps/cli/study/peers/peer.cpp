@@ -4,11 +4,12 @@
 
 #include "apps/cli/study/peers/cycles.h"
 #include "apps/cli/study/peers/povray.h"
+#include "apps/cli/study/peers/threejs.h"
 
 namespace penumbra::apps {
 
-std::vector<Peer> all_peers() {
-  return {povray_peer(), cycles_peer()};
+std::vector<Peer> all_peers(const std::filesystem::path& three) {
+  return {povray_peer(), cycles_peer(), threejs_peer(three)};
 }
 
 bool takes(const Peer& peer, const LightShape& light) {

@@ -2,6 +2,7 @@
 // it has no rows, and the study goes on.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -36,8 +37,8 @@ struct Peer {
   std::function<std::vector<Measured>(const PeerCase&, std::span<const Setting>)> measure;
 };
 
-/// All of them that are other programs (embree_loop.h is a method of this one).
-std::vector<Peer> all_peers();
+/// All of them that are other programs (embree_loop.h is a method of this one). `three`: see threejs.h.
+std::vector<Peer> all_peers(const std::filesystem::path& three = {});
 
 /// Whether it has lights of this kind. None has rectangles.
 bool takes(const Peer& peer, const LightShape& light);
