@@ -4,6 +4,11 @@
 
 #include "apps/cli/study/case_study.h"
 #include "apps/cli/study/page/study_page.h"
+#include "apps/cli/study/ranks/ranks.h"
+#include "apps/cli/study/ranks/shared_work.h"
+#include "apps/cli/study/study_cases.h"
+#include "apps/cli/study/study_plan.h"
+#include "apps/cli/study/study_record.h"
 #include "apps/common/machine.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
@@ -13,104 +18,102 @@ namespace {
 
 using nlohmann::json;
 
-/// Of the cases that show how cost grows.
-constexpr int kGrowthSamples = 1'024, kSpheres = 4;
+/// Rows that are timed in turn; of several ranks each has one.
+constexpr std::size_t kGroup = 6;
 
-json about_of(const StudyOptions& options) {
-  return {{"machine", describe_machine()},
-          {"threads", used_threads(options.judge.threads)},
-          {"version", PENUMBRA_VERSION},
-          {"commit", options.commit},
-          {"frames", options.rounds},
-          {"samples", options.judge.samples},
-          {"resampled", options.judge.resample},
-          {"double_pixels", options.judge.double_pixels},
-          {"double_samples", options.judge.double_samples},
-          {"default_method", kDefaultMethod}};
+json about_of(const StudyOptions& options, int ranks) {
+  json about = {{"machine", describe_machine()},
+                {"threads", used_threads(options.judge.threads)},
+                {"version", PENUMBRA_VERSION},
+                {"commit", options.commit},
+                {"frames", options.rounds},
+                {"samples", options.judge.samples},
+                {"resampled", options.judge.resample},
+                {"double_pixels", options.judge.double_pixels},
+                {"double_samples", options.judge.double_samples},
+                {"default_method", kDefaultMethod}};
+  if (ranks > 1) about["ranks"] = ranks;
+  return about;
 }
 
-/// Errors are of less interest where cost is: fewer rays, none in double.
-StudyOptions for_growth(StudyOptions options) {
-  options.judge.samples = std::min(options.judge.samples, kGrowthSamples);
-  options.judge.resample = false;
-  options.judge.double_pixels = 0;
-  return options;
-}
-
-/// Those that can be run here. Of others it is said why they have no rows.
-std::vector<Peer> peers_at_hand(const StudyOptions& options) {
-  std::vector<Peer> peers;
-  if (!options.peers) return peers;
-  for (Peer& peer : all_peers(options.three)) {
+/// Names of those that can be run here. Of others it is said why they have no rows.
+std::vector<std::string> at_hand(std::span<const Peer> peers, const StudyOptions& options) {
+  std::vector<std::string> names;
+  for (const Peer& peer : peers) {
     if (!options.methods.empty() && std::ranges::find(options.methods, peer.name) == options.methods.end())
       continue;
     const std::string reason = peer.missing();
     if (reason.empty())
-      peers.push_back(std::move(peer));
+      names.push_back(peer.name);
     else
       complain("no rows of " + peer.name + ": " + reason);
   }
-  return peers;
+  return names;
 }
 
-/// All cases of a study one after the other, since scenes may be large.
-class Study {
+/// Measures units, one case in memory.
+class Bench {
  public:
-  Study(const StudyOptions& options, const Progress& progress)
-      : options_(options),
-        growth_(for_growth(options)),
-        peers_(peers_at_hand(options)),
-        record_(options.output, about_of(options)),
-        progress_(progress),
-        parts_(options.scenes.size() + (options.growth ? 1 + kSpheres : 0)) {}
+  Bench(const StudyCases& cases, std::span<const Peer> peers) : cases_(cases), peers_(peers) {}
 
-  std::size_t run() {
-    for (const std::filesystem::path& path : options_.scenes) run_scene(path);
-    if (options_.growth) run_growth();
-    return measured_;
+  UnitResult measure(const StudyUnit& unit) {
+    if (!study_ || number_ != unit.case_number) {
+      study_.reset();
+      number_ = unit.case_number;
+      study_ = std::make_unique<CaseStudy>(cases_.options(number_), peers_, cases_.path(number_),
+                                           cases_.make(number_));
+    }
+    return study_->measure(unit.rows);
   }
 
  private:
-  Scene read(const std::filesystem::path& path) const { return load({.path = path}); }
-  Progress next_part() {
-    const double from = part_++, all = static_cast<double>(parts_);
-    return part_of(progress_, from / all, (from + 1.0) / all);
-  }
-  void finish_part() {
-    write_tables(record_);
-    write_page(record_);
-  }
-  void run_scene(const std::filesystem::path& path) {
-    CaseStudy study(record_, options_, peers_, path,
-                    make_case(path.stem().string(), read(path), options_.view));
-    measured_ += study.run(next_part());
-    finish_part();
-  }
-  void run_growth() {
-    const std::filesystem::path& path = options_.scenes.front();
-    const Progress part = next_part();
-    for (StudyCase& seen : growth_cases(path.stem().string(), read(path), options_.view))
-      measured_ += CaseStudy(record_, growth_, peers_, path, std::move(seen)).run(part);
-    for (int level = 0; level < kSpheres; ++level)
-      measured_ +=
-          CaseStudy(record_, growth_, peers_, {}, sphere_case(level, options_.view)).run(next_part());
-    finish_part();
-  }
-
-  const StudyOptions& options_;
-  const StudyOptions growth_;
-  const std::vector<Peer> peers_;
-  StudyRecord record_;
-  const Progress& progress_;
-  std::size_t parts_;
-  int part_ = 0;
-  std::size_t measured_ = 0;
+  const StudyCases& cases_;
+  const std::span<const Peer> peers_;
+  std::size_t number_ = 0;
+  std::unique_ptr<CaseStudy> study_;
 };
+
+/// Returns how many rows were measured. `ranks` may be null.
+std::size_t plan_and_write(const StudyOptions& options, const StudyCases& cases, std::span<const Peer> peers,
+                           Bench& bench, Ranks* ranks, const Progress& progress) {
+  StudyRecord record(options.output, about_of(options, ranks ? ranks->size() : 1));
+  StudyPlan plan(cases, record, peers, at_hand(peers, options), ranks ? 1 : kGroup);
+  std::size_t measured = 0;
+  const auto write = [&record] {
+    write_tables(record);
+    write_page(record);
+  };
+  const TakeResult take = [&](std::size_t number, const UnitResult& result) {
+    measured += record.add(result);
+    if (!result.complaint.empty()) complain(result.complaint);
+    if (plan.case_done(number)) write();
+  };
+  const MeasureUnit measure = [&bench](const StudyUnit& unit) { return bench.measure(unit); };
+  if (ranks) {
+    lead(*ranks, plan, measure, take, progress);
+  } else {
+    while (const auto unit = plan.next(0)) {
+      report(progress, plan.fraction());
+      const UnitResult result = measure(*unit);
+      plan.finish(0);
+      take(unit->case_number, result);
+    }
+  }
+  if (measured == 0) write();
+  return measured;
+}
 
 }  // namespace
 
-std::size_t run_study(const StudyOptions& options, const Progress& progress) {
-  return Study(options, progress).run();
+std::optional<std::size_t> run_study(const StudyOptions& options, const Progress& progress) {
+  const std::unique_ptr<Ranks> ranks = Ranks::of_this_run();
+  const std::vector<Peer> peers = options.peers ? all_peers(options.three) : std::vector<Peer>{};
+  const StudyCases cases(options);
+  Bench bench(cases, peers);
+  if (!ranks || ranks->rank() == 0)
+    return plan_and_write(options, cases, peers, bench, ranks.get(), progress);
+  follow(*ranks, [&bench](const StudyUnit& unit) { return bench.measure(unit); });
+  return std::nullopt;
 }
 
 }  // namespace penumbra::apps

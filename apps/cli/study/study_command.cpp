@@ -75,12 +75,13 @@ void run(Arguments& arguments, const CLI::App& command) {
   }
   study.judge.threads = arguments.common.threads;
   const ThreadLimit limit(arguments.common.threads);
-  std::size_t measured = 0;
+  std::optional<std::size_t> measured;
   {
     ProgressLine progress("measuring");
     measured = run_study(study, progress.callback());
   }
-  print(std::to_string(measured) + (measured == 1 ? " row" : " rows") + " measured; the page is " +
+  if (!measured) return;
+  print(std::to_string(*measured) + (*measured == 1 ? " row" : " rows") + " measured; the page is " +
         (study.output / "index.html").string() + "\n");
 }
 

@@ -12,7 +12,7 @@
     const image = new Image();
     image.onload = () => resolve(image);
     image.onerror = () => reject(new Error(`picture ${name} cannot be read`));
-    image.src = `data:image/png;base64,${Study.pictures[name]}`;
+    image.src = `data:image/webp;base64,${Study.pictures[name]}`;
   });
 
   /** The bytes of an embedded PNG: {width, height, data}, four bytes a pixel. */
