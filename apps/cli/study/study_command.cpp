@@ -24,7 +24,7 @@ call measures what is missing. Times are milliseconds, errors are of the fractio
 
 // Errors at such a size and with so few rays are for a first look.
 constexpr StudyView kQuickView{.width = 320, .height = 240};
-constexpr int kQuickSamples = 1'024, kQuickDoubleSamples = 256;
+constexpr int kQuickSamples = 1'024, kQuickDoubleSamples = 256, kQuickFrames = 3;
 constexpr std::size_t kQuickDoublePixels = 300;
 
 struct Arguments {
@@ -67,6 +67,7 @@ void run(Arguments& arguments, const CLI::App& command) {
     study.judge.double_pixels = kQuickDoublePixels;
     study.judge.double_samples = kQuickDoubleSamples;
     if (command.count("--samples") == 0) study.judge.samples = kQuickSamples;
+    if (command.count("--frames") == 0) study.rounds = kQuickFrames;
   }
   if (!arguments.size.empty()) {
     const PixelPair size = parse_size(arguments.size);
@@ -97,7 +98,7 @@ void add_study_command(CLI::App& app) {
       ->required()
       ->type_name("DIR");
   command.add_flag("--quick", study.quick,
-                   "For a first look: 320x240, few settings, 1,024 rays a reference, few pixels in double");
+                   "For a first look: 320x240, few settings, 3 frames, 1,024 rays a reference, few pixels in double");
   command.add_option("--methods", study.methods, "Only these methods, divided by commas")
       ->delimiter(',')
       ->type_name("NAMES");

@@ -101,4 +101,4 @@ Study.element = (name, attributes = {}, ...children) => {
   return node;
 };
 Study.colorOf = method => getComputedStyle(document.documentElement)
-  .getPropertyValue(`--m${Study.methods.indexOf(method) % 8}`).trim();
+  .getPropertyValue(`--m${Study.methods.indexOf(method) % 12}`).trim();
