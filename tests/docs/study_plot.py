@@ -14,7 +14,7 @@ WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 860, 480, 66, 52, 14, 14
 # Readable on white and on dark.
 COLORS = {"silhouette": "#2f81d8", "reference": "#85898f", "rays": "#d88a1d", "hard": "#9a9f22", "none": "#b565c1",
           "dbuffer": "#d8473d", "occlusion-textures": "#1aa37c"}
-OTHERS = ["#8a5a32", "#c4569b", "#5b6ee1"]
+OTHERS = ["#8a5a32", "#c4569b", "#5b6ee1", "#3aa0b8", "#6f9a3a"]
 LEAST = 5e-5  # what references of 4,096 rays tell from 0
 
 

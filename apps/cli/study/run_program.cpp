@@ -1,11 +1,16 @@
 #include "apps/cli/study/run_program.h"
 
 #include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
+#include <chrono>
 
 extern char** environ;
 
@@ -21,32 +26,49 @@ pid_t start(const std::string& program, std::vector<std::string>& words, Stream 
   const int kept = static_cast<int>(stream), other = kept == STDOUT_FILENO ? STDERR_FILENO : STDOUT_FILENO;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ends[1], kept);
   posix_spawn_file_actions_addopen(&actions, other, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addclose(&actions, ends[0]);
-  posix_spawn_file_actions_addclose(&actions, ends[1]);
   pid_t child = 0;
   const int failed = posix_spawnp(&child, program.c_str(), &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   return failed == 0 ? child : 0;
 }
 
+/// All that can be read until the other end is closed. Nothing where that takes too long.
+std::optional<std::string> read_all(int from, double most_seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(most_seconds);
+  std::string text;
+  std::array<char, 4096> part;
+  while (true) {
+    const std::chrono::duration<double, std::milli> left = end - Clock::now();
+    pollfd waits{from, POLLIN, 0};
+    const int ready = poll(&waits, 1, static_cast<int>(std::max(0.0, left.count())));
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return std::nullopt;
+    const ssize_t count = read(from, part.data(), part.size());
+    if (count <= 0) return text;
+    text.append(part.data(), static_cast<std::size_t>(count));
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> run_program(const std::string& program, std::vector<std::string> words,
-                                       Stream stream) {
+                                       Stream stream, double most_seconds) {
   int ends[2];
-  if (pipe(ends) != 0) return std::nullopt;
+  if (pipe2(ends, O_CLOEXEC) != 0) return std::nullopt;
   const pid_t child = start(program, words, stream, ends);
   close(ends[1]);
-  std::string text;
-  std::array<char, 4096> part;
-  for (ssize_t count = 0; child != 0 && (count = read(ends[0], part.data(), part.size())) > 0;)
-    text.append(part.data(), static_cast<std::size_t>(count));
-  close(ends[0]);
+  std::optional<std::string> text;
   int status = 0;
-  if (child == 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    return std::nullopt;
+  if (child != 0) {
+    text = read_all(ends[0], most_seconds);
+    if (!text) kill(child, SIGKILL);
+    if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) text.reset();
+  }
+  close(ends[0]);
   return text;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace penumbra::apps {
 struct StudyOptions {
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
-  /// Empty: every registered method.
+  /// Also names of peers. Empty: every registered method, and all peers.
   std::vector<std::string> methods{};
   StudyView view{};
   /// Timed frames a row.
@@ -29,12 +30,15 @@ struct StudyOptions {
   bool growth = false;
   /// Also what people use instead (peers/). Those that are methods are to be registered before.
   bool peers = false;
+  /// The folder of npm's package three, for the peer that needs it; may be empty.
+  std::filesystem::path three{};
   /// What the page says of the program's sources.
   std::string commit{};
 };
 
 /// Measures the rows that DIR does not have and writes rows.jsonl, study.json, study.csv, pictures/ and index.html there.
-/// Returns how many rows were measured. Throws UsageError where DIR's rows were measured by something else.
-std::size_t run_study(const StudyOptions& options, const Progress& progress = {});
+/// Returns how many rows were measured. Under mpirun only rank 0 writes; the others measure with it (ranks/) and return nothing.
+/// Throws UsageError where DIR's rows were measured by something else.
+std::optional<std::size_t> run_study(const StudyOptions& options, const Progress& progress = {});
 
 }  // namespace penumbra::apps

@@ -105,15 +105,12 @@ StudyCase make_case(const std::string& name, const Scene& scene, const StudyView
   return out;
 }
 
-std::vector<StudyCase> growth_cases(const std::string& name, const Scene& scene, const StudyView& view) {
-  std::vector<StudyCase> out;
-  const auto add = [&](const StudyView& other, const char* sweep) {
-    out.push_back(make_case(name, scene, other));
-    out.back().sweep = sweep;
-  };
-  for (const double scale : {0.125, 0.25, 0.5, 2.0, 4.0}) add({view.width, view.height, scale}, "light");
+std::vector<GrowthView> growth_views(const StudyView& view) {
+  std::vector<GrowthView> out;
+  for (const double scale : {0.125, 0.25, 0.5, 2.0, 4.0})
+    out.push_back({{view.width, view.height, scale}, "light"});
   for (const double side : {0.25, 0.5, 2.0})
-    add({static_cast<int>(side * view.width), static_cast<int>(side * view.height)}, "size");
+    out.push_back({{static_cast<int>(side * view.width), static_cast<int>(side * view.height)}, "size"});
   return out;
 }
 

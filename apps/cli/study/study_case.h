@@ -37,8 +37,13 @@ struct StudyCase {
 /// Throws UsageError for a scene that has no light or several.
 StudyCase make_case(const std::string& name, const Scene& scene, const StudyView& view);
 
-/// How cost grows: the scene under lights of 1/8 to 4 times the radius, and in pictures of 1/16 to 4 times the pixels.
-std::vector<StudyCase> growth_cases(const std::string& name, const Scene& scene, const StudyView& view);
+/// How cost grows: lights of 1/8 to 4 times the radius, and pictures of 1/16 to 4 times the pixels.
+struct GrowthView {
+  StudyView view;
+  /// As StudyCase has it.
+  std::string sweep;
+};
+std::vector<GrowthView> growth_views(const StudyView& view);
 
 /// A sphere over a floor, of 1,280 to 1,310,720 faces, each under the same light. Made one after the other: `level` is 0 to 3.
 StudyCase sphere_case(int level, const StudyView& view);

@@ -4,6 +4,7 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/study/peers/embree_loop.h"
+#include "apps/cli/study/peers/peer.h"
 #include "apps/cli/study/study.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
@@ -23,7 +24,7 @@ call measures what is missing. Times are milliseconds, errors are of the fractio
 
 // Errors at such a size and with so few rays are for a first look.
 constexpr StudyView kQuickView{.width = 320, .height = 240};
-constexpr int kQuickSamples = 1'024, kQuickDoubleSamples = 256;
+constexpr int kQuickSamples = 1'024, kQuickDoubleSamples = 256, kQuickFrames = 3;
 constexpr std::size_t kQuickDoublePixels = 300;
 
 struct Arguments {
@@ -45,13 +46,20 @@ void require_scenes(const StudyOptions& study) {
       if (study.scenes[k].stem() == study.scenes[i].stem())
         throw UsageError("two scenes are called " + study.scenes[i].stem().string() + "; rename one");
   }
-  for (const std::string& method : study.methods) method_named(method);
+}
+
+/// Throws UsageError for what is neither a method nor a peer that is asked for.
+void require_methods(const StudyOptions& study) {
+  const std::vector<Peer> peers = study.peers ? all_peers(study.three) : std::vector<Peer>{};
+  for (const std::string& name : study.methods)
+    if (std::ranges::find(peers, name, &Peer::name) == peers.end()) method_named(name);
 }
 
 void run(Arguments& arguments, const CLI::App& command) {
   StudyOptions& study = arguments.study;
   if (study.peers) register_peers();
   require_scenes(study);
+  require_methods(study);
   if (study.quick) {
     study.view = kQuickView;
     study.memory = false;
@@ -59,6 +67,7 @@ void run(Arguments& arguments, const CLI::App& command) {
     study.judge.double_pixels = kQuickDoublePixels;
     study.judge.double_samples = kQuickDoubleSamples;
     if (command.count("--samples") == 0) study.judge.samples = kQuickSamples;
+    if (command.count("--frames") == 0) study.rounds = kQuickFrames;
   }
   if (!arguments.size.empty()) {
     const PixelPair size = parse_size(arguments.size);
@@ -67,12 +76,13 @@ void run(Arguments& arguments, const CLI::App& command) {
   }
   study.judge.threads = arguments.common.threads;
   const ThreadLimit limit(arguments.common.threads);
-  std::size_t measured = 0;
+  std::optional<std::size_t> measured;
   {
     ProgressLine progress("measuring");
     measured = run_study(study, progress.callback());
   }
-  print(std::to_string(measured) + (measured == 1 ? " row" : " rows") + " measured; the page is " +
+  if (!measured) return;
+  print(std::to_string(*measured) + (*measured == 1 ? " row" : " rows") + " measured; the page is " +
         (study.output / "index.html").string() + "\n");
 }
 
@@ -88,7 +98,7 @@ void add_study_command(CLI::App& app) {
       ->required()
       ->type_name("DIR");
   command.add_flag("--quick", study.quick,
-                   "For a first look: 320x240, few settings, 1,024 rays a reference, few pixels in double");
+                   "For a first look: 320x240, few settings, 3 frames, 1,024 rays a reference, few pixels in double");
   command.add_option("--methods", study.methods, "Only these methods, divided by commas")
       ->delimiter(',')
       ->type_name("NAMES");
@@ -105,7 +115,12 @@ void add_study_command(CLI::App& app) {
                    "Also how time grows: with light and size of the first scene, with the faces of a sphere");
   command.add_flag(
       "--peers", study.peers,
-      "Also a plain loop over Embree's rays, as its tutorial has it, and POV-Ray where it is installed");
+      "Also what people use instead: a plain loop over Embree's rays, and where they are installed "
+      "POV-Ray, Blender's Cycles and three.js");
+  command
+      .add_option("--three", study.three,
+                  "With --peers: the folder of npm's package three, for three.js's soft shadows in Chromium")
+      ->type_name("DIR");
   command.add_option("--commit", study.commit, "What the page says of the program's sources")
       ->type_name("TEXT");
   add_common_options(command, arguments->common);

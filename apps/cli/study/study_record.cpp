@@ -160,6 +160,19 @@ void StudyRecord::add_row(const json& row) {
   take({{"row", row}});
 }
 
+std::size_t StudyRecord::add(const UnitResult& result) {
+  std::filesystem::create_directories(folder_ / "pictures");
+  for (const auto& [name, bytes] : result.pictures) write_text(folder_ / "pictures" / name, bytes);
+  std::size_t added = 0;
+  for (const json& row : result.rows) {
+    if (has_row(row.at("key"))) continue;
+    add_case(result.seen);
+    add_row(row);
+    ++added;
+  }
+  return added;
+}
+
 void write_tables(const StudyRecord& record) {
   write_text(record.folder() / "study.json", json_of(record));
   write_text(record.folder() / "study.csv", csv_of(record));

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/study/study_unit.h"
+
 namespace penumbra::apps {
 
 class StudyRecord {
@@ -18,10 +20,8 @@ class StudyRecord {
   StudyRecord(std::filesystem::path folder, nlohmann::json about);
 
   bool has_row(const std::string& key) const { return keys_.contains(key); }
-  /// By "id". Does nothing where it is there.
-  void add_case(const nlohmann::json& seen);
-  /// By "key".
-  void add_row(const nlohmann::json& row);
+  /// Writes its pictures, then the case, then those of its rows that are not there by "key". Returns how many these were.
+  std::size_t add(const UnitResult& result);
 
   const std::filesystem::path& folder() const { return folder_; }
   const nlohmann::json& about() const { return about_; }
@@ -30,6 +30,9 @@ class StudyRecord {
 
  private:
   void read();
+  /// Does nothing where it is there.
+  void add_case(const nlohmann::json& seen);
+  void add_row(const nlohmann::json& row);
   void take(const nlohmann::json& line);
   void append(const nlohmann::json& line) const;
   std::filesystem::path file() const { return folder_ / "rows.jsonl"; }

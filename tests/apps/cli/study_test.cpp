@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "apps/cli/study/measure.h"
-#include "apps/cli/study/peers/povray.h"
 #include "apps/cli/study/settings.h"
 #include "apps/cli/study/study_record.h"
 #include "penumbra/mesh/error.h"
@@ -72,29 +70,6 @@ TEST(StudySettings, FewOptionsAreCombined) {
   EXPECT_EQ(labels.size(), 12u);  // seven numbers of rays, and five with the filter: not above the default
   EXPECT_FALSE(labels.contains("rays, samples 1024, denoise a-trous"));
   EXPECT_TRUE(labels.contains("rays, samples 16, denoise a-trous"));
-}
-
-// What is done with POV-Ray's pictures gives our own method's visibility back.
-TEST(StudyPeers, ARatioOfPicturesIsVisibility) {
-  const Scene scene = load_scene(std::filesystem::path(PENUMBRA_DATA) / "scenes/torus-medium.json").scene;
-  const auto draw = [&](const char* method) {
-    return render(scene, {.method = method, .width = 96, .height = 72});
-  };
-  const RenderResult seen = draw("silhouette"), lit = draw("none");
-  const auto in_16_bits = [](const Image& image) {
-    std::vector<unsigned> out;
-    for (const float v : image.at("G")) out.push_back(static_cast<unsigned>(std::lround(65'535.0f * v)));
-    return out;
-  };
-  const std::vector<float> ratio = apps::visibility_of_ratio(in_16_bits(seen.image), in_16_bits(lit.image));
-  std::size_t partly = 0;
-  for (std::size_t i = 0; i < ratio.size(); ++i) {
-    const float horizon = lit.lights.front().visibility[i], v = seen.lights.front().visibility[i];
-    if (seen.image.at("A")[i] == 0.0f || horizon < 1.0f || lit.image.at("G")[i] < 0.01f) continue;
-    EXPECT_NEAR(ratio[i], v, 2e-3f) << i;
-    partly += v > 0.1f && v < 0.9f;
-  }
-  EXPECT_GT(partly, 300u);
 }
 
 TEST(StudyMeasure, QuartilesAreOfSortedValues) {
@@ -201,23 +176,6 @@ TEST_F(StudyTest, ErrorsAreTheSameAgain) {
   const Json second = table()["rows"];
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t k = 0; k < first.size(); ++k) EXPECT_EQ(first[k]["error"], second[k]["error"]);
-}
-
-TEST(StudyPeers, PovRayIsOneWhereItIsInstalled) {
-  if (!apps::has_povray()) GTEST_SKIP() << "povray is not installed";
-  apps::StudyCase seen = apps::make_case(
-      "torus", load_scene(std::filesystem::path(PENUMBRA_DATA) / "scenes/torus-medium.json").scene,
-      {.width = 160, .height = 120});
-  const RenderOptions view{.method = "silhouette", .width = 160, .height = 120};
-  const RenderResult silhouette = render(seen.scene, view);
-  const auto measured = apps::measure_povray(
-      seen, {.method = "povray", .options = {{"samples", std::uint64_t{256}}}}, 1, 1, silhouette.image);
-  ASSERT_TRUE(measured);
-  EXPECT_GT(measured->frames.front(), 0.0);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < measured->visibility.size(); ++i)
-    sum += std::abs(measured->visibility[i] - silhouette.lights.front().visibility[i]);
-  EXPECT_LT(sum / static_cast<double>(measured->visibility.size()), 0.02);
 }
 
 TEST_F(StudyTest, RefusesWhatItCannotMeasure) {

@@ -80,6 +80,18 @@
     const [hard, silhouette] = [await colored("hard"), await colored("silhouette")];
     check(hard > 50 && hard > 4 * silhouette, `differences of hard and silhouette have ${hard} and ${silhouette} colored pixels`);
 
+    // Of settings beside the front there are small pictures: as large on the page, of fewer pixels.
+    const small = Study.rows.find(row => !(row.picture in Study.pictures));
+    const wide = canvases[2].width;
+    check(small !== undefined, "all pictures are large");
+    if (small) {
+      await Study.showPicture(small);
+      await choose("scale", "0.02");
+      canvases.forEach((canvas, k) => check(canvas.width === wide && colors(canvas).size > 8, `small picture ${k} is empty, or ${canvas.width} wide`));
+      check(get("picture-text").textContent.includes("every second pixel"), "it is not said that pixels are left out");
+    }
+    await Study.showPicture(Study.rows.find(row => row.method === "silhouette" && row.varied === ""));
+
     // Linked zoom, and the probe by keyboard.
     const before = canvases.map(canvas => canvas.toDataURL());
     get("zoom-in").click();

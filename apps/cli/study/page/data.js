@@ -15,6 +15,14 @@ Study.ERRORS = {
 };
 Study.AREAS = { penumbra: "where the shadow is soft", all: "all" };
 
+// What people use instead, measured beside: what of it compares, and what does not. `short` stands beside its numbers.
+Study.PEERS = {
+  "embree-loop": { short: "independent rays, one at a time, that start .001 away", long: "a plain loop over Embree's rays as its tutorial has it: one independent ray at a time, started .001 away from the surface." },
+  povray: { short: "time of one process; the horizon counts for the light's center alone", long: "the circular area light of POV-Ray: the same n × n points of the light at every pixel, the horizon for its center alone; V is the ratio of a picture with and one without shadows." },
+  cycles: { short: "time of Blender's render call, shading in it", long: "Blender's Cycles, direct light only, no denoiser; V is the ratio of a picture with and one without shadows. Evenly weighed, each point of the light counts alike, as in V; by irradiance, as Blender has it, cosines and distance count, which is another number. Its time has shading in it." },
+  "threejs-pcss": { short: "time of software OpenGL, no measure of a GPU", long: "three.js with percentage-closer soft shadows as in its example, in headless Chromium; V is the ratio of a frame with and one without shadows, the horizon counts for the light's center alone. Its time is that of software OpenGL (SwiftShader): it says nothing of a GPU." },
+};
+
 // Errors below this are drawn at it: the axis is logarithmic.
 Study.FLOOR = 1e-5;
 
@@ -93,4 +101,4 @@ Study.element = (name, attributes = {}, ...children) => {
   return node;
 };
 Study.colorOf = method => getComputedStyle(document.documentElement)
-  .getPropertyValue(`--m${Study.methods.indexOf(method) % 8}`).trim();
+  .getPropertyValue(`--m${Study.methods.indexOf(method) % 12}`).trim();

@@ -17,6 +17,7 @@
     if (point.scenes) lines.push(Study.element("span", { class: "small" }, `worst on ${row.scene}`));
     else lines.push(Study.element("span", { class: "small" },
       `a quarter of the frames below ${Study.digits(row.frame_ms.low)} ms, a quarter above ${Study.digits(row.frame_ms.high)} ms`));
+    if (point.method in Study.PEERS) lines.push(Study.element("span", { class: "small" }, Study.PEERS[point.method].short));
     return lines;
   };
   const say = point => { get("said").textContent = `${point.label}: ${Study.ms(point.x)}, error ${Study.errorText(point)}`; };
@@ -102,7 +103,8 @@
       pixels > 0 ? `At ${pixels} pixels a scene, chosen by chance, rays in double that share nothing with the methods judge as well.` : "",
       `A certificate is a pixel of which a method says that it is wholly lit or wholly dark; 256 rays a pixel contradict the wrong ones.`,
       `All scenes: the geometric mean of times, and the root mean square of errors.`,
-      renderers.length ? `OpenGL: ${renderers.join("; ")}.` : "",
+      renderers.length ? `Drawn by: ${renderers.join("; ")}.` : "",
+      ...Object.entries(Study.PEERS).filter(([name]) => Study.methods.includes(name)).map(([name, { long }]) => `${name}: ${long}`),
     ].filter(Boolean).map(line => Study.element("li", {}, line))));
   };
 

@@ -12,7 +12,7 @@
     const image = new Image();
     image.onload = () => resolve(image);
     image.onerror = () => reject(new Error(`picture ${name} cannot be read`));
-    image.src = `data:image/png;base64,${Study.pictures[name]}`;
+    image.src = `data:image/webp;base64,${Study.pictures[name]}`;
   });
 
   /** The bytes of an embedded PNG: {width, height, data}, four bytes a pixel. */
@@ -27,6 +27,18 @@
   const toLinear = byte => { const s = byte / 255; return s <= .04045 ? s / 12.92 : ((s + .055) / 1.055) ** 2.4; };
   const toSrgb = v => 255 * (v <= .0031308 ? 12.92 * v : 1.055 * Math.min(1, v) ** (1 / 2.4) - .055);
   const LINEAR = Float32Array.from({ length: 256 }, (_, k) => toLinear(k));
+
+  /** Every `factor`-th pixel, across and down. */
+  const thinned = (image, factor) => {
+    if (factor === 1) return image;
+    const width = Math.ceil(image.width / factor), height = Math.ceil(image.height / factor), data = new Uint8ClampedArray(4 * width * height);
+    for (let y = 0; y < height; ++y)
+      for (let x = 0; x < width; ++x) {
+        const from = 4 * factor * (y * image.width + x);
+        data.set(image.data.subarray(from, from + 4), 4 * (y * width + x));
+      }
+    return { width, height, data };
+  };
 
   /** Errors, visibilities and certificates of every pixel; surfaces that are not there have NaN. */
   const unpack = (reference, error) => {
@@ -77,10 +89,11 @@
     for (const panel of Object.values(panels)) {
       if (!panel.picture) continue;
       const { canvas, picture } = panel, context = canvas.getContext("2d");
-      canvas.width = picture.width * 2;
-      canvas.height = picture.height * 2;
+      const unit = 2 * shown.factor;
+      canvas.width = picture.width * unit;
+      canvas.height = picture.height * unit;
       context.imageSmoothingEnabled = false;
-      const f = 2 * zoom.factor;
+      const f = unit * zoom.factor;
       context.setTransform(f, 0, 0, f, -zoom.x * f, -zoom.y * f);
       context.drawImage(picture, 0, 0);
       if (!probed) continue;
@@ -104,7 +117,7 @@
   const probe = (x, y) => {
     const { numbers, row } = shown;
     probed = { x: Math.min(numbers.width - 1, Math.max(0, Math.floor(x))), y: Math.min(numbers.height - 1, Math.max(0, Math.floor(y))) };
-    const i = probed.y * numbers.width + probed.x, step = Math.ceil(row.width / 320);
+    const i = probed.y * numbers.width + probed.x, step = Math.ceil(row.width / 320) * shown.factor;
     const error = numbers.error[i], reference = numbers.reference[i];
     const certificate = ["not certified", "certified lit", "certified in umbra"][numbers.certificate[i]];
     document.getElementById("probe").textContent = Number.isNaN(error)
@@ -120,7 +133,7 @@
     const figure = document.getElementById("disk-figure"), { disks } = shown;
     figure.hidden = !disks || !lit;
     if (figure.hidden) return;
-    const points = 12, spacing = 4, last = n => Math.ceil(n / spacing) - 1;
+    const points = 12, spacing = 4 / shown.factor, last = n => Math.ceil(n / spacing) - 1;
     const column = Math.min(last(shown.numbers.width), Math.round(probed.x / spacing));
     const row = Math.min(last(shown.numbers.height), Math.round(probed.y / spacing));
     const context = document.getElementById("disk").getContext("2d");
@@ -193,17 +206,25 @@
   Study.showPicture = async row => {
     if (!panels.picture) makePanels();
     const text = document.getElementById("picture-text");
-    if (!(row.picture in Study.pictures)) {
+    const name = [row.picture, row.small_picture].find(one => one in Study.pictures);
+    if (!name) {
       text.textContent = `There is no picture of ${row.label}.`;
       return;
     }
     const { lit_picture: litName, reference_picture: referenceName, disks_picture: disksName } = row.seen;
-    const [lit, reference, error] = await Promise.all([litName, referenceName, row.picture].map(decode));
+    const [wholeLit, wholeReference, error] = await Promise.all([litName, referenceName, name].map(decode));
+    const factor = Math.round(wholeReference.width / error.width);
+    const [lit, reference] = [wholeLit, wholeReference].map(image => thinned(image, factor));
     const sameView = shown && shown.row.seen === row.seen;
     const disks = sameView ? shown.disks : disksName in Study.pictures ? await pictureOf(disksName) : null;
     const numbers = unpack(reference, error);
-    shown = { row, numbers, disks };
     if (!sameView) { zoom = { factor: 1, x: 0, y: 0 }; probed = null; }
+    else if (shown.factor !== factor) {
+      const ratio = shown.factor / factor;
+      zoom = { factor: zoom.factor, x: zoom.x * ratio, y: zoom.y * ratio };
+      if (probed) probed = { x: Math.floor(probed.x * ratio), y: Math.floor(probed.y * ratio) };
+    }
+    shown = { row, numbers, disks, factor };
     panels.picture.picture = shaded(lit, numbers, i => numbers.reference[i] + numbers.error[i]);
     panels.reference.picture = shaded(lit, numbers, i => numbers.reference[i]);
     panels.picture.caption.textContent = row.label;
@@ -217,8 +238,10 @@
       document.getElementById("disk-figure").hidden = true;
       document.getElementById("probe").textContent = "Point at a pixel for its numbers. Wheel or pinch zooms, dragging moves; all three follow.";
     }
-    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame, RMSE ${Study.rmseText(row)} where the shadow is soft. ` +
-      `Stages, ms: ${Object.entries(row.stages).map(([stage, ms]) => `${stage.replaceAll("_", " ")} ${Study.digits(ms, 2)}`).join(", ")}.`;
+    const peer = row.method in Study.PEERS ? ` (${Study.PEERS[row.method].short})` : "";
+    text.textContent = `${row.scene}: ${row.label}. ${Study.ms(row.frame_ms.median)} a frame${peer}, RMSE ${Study.rmseText(row)} where the shadow is soft. ` +
+      `Stages, ms: ${Object.entries(row.stages).map(([stage, ms]) => `${stage.replaceAll("_", " ")} ${Study.digits(ms, 2)}`).join(", ")}.` +
+      (factor > 1 ? " Of settings beside the front every second pixel is kept." : "");
     document.getElementById("pictures").dataset.row = row.key;
   };
 })();

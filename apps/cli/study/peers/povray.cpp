@@ -1,7 +1,5 @@
 #include "apps/cli/study/peers/povray.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -9,34 +7,16 @@
 #include <numbers>
 #include <sstream>
 
+#include "apps/cli/study/peers/temporary_folder.h"
 #include "apps/cli/study/run_program.h"
 #include "mesh/io/write_file.h"
-#include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Removed with all it holds.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "penumbra-povray-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw SystemError(pattern + ": cannot be made");
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+constexpr double kMostSeconds = 600.0;
 
 struct Written {
   const Vec3& v;
@@ -88,8 +68,8 @@ void write_scene(const fs::path& path, const StudyCase& seen, const DiskLight& l
   });
 }
 
-/// The green channel of a binary PPM with 16 bits.
-std::vector<unsigned> read_ppm(const fs::path& path, std::size_t pixels) {
+/// The green channel of a binary PPM with 16 bits, 0 to 1.
+std::vector<float> read_ppm(const fs::path& path, std::size_t pixels) {
   std::ifstream in(path, std::ios::binary);
   std::string word;
   for (int fields = 0; fields < 4 && in >> word;)
@@ -100,9 +80,10 @@ std::vector<unsigned> read_ppm(const fs::path& path, std::size_t pixels) {
   in.get();
   std::vector<unsigned char> bytes(6 * pixels);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in || word != "65535") throw SystemError(path.string() + ": is no picture of 16 bits by POV-Ray");
-  std::vector<unsigned> out(pixels);
-  for (std::size_t i = 0; i < pixels; ++i) out[i] = bytes[6 * i + 2] * 256u + bytes[6 * i + 3];
+  if (!in || word != "65535") throw PeerError("POV-Ray wrote no picture of 16 bits");
+  std::vector<float> out(pixels);
+  for (std::size_t i = 0; i < pixels; ++i)
+    out[i] = static_cast<float>(bytes[6 * i + 2] * 256u + bytes[6 * i + 3]) / 65'535.0f;
   return out;
 }
 
@@ -113,33 +94,26 @@ double trace_ms(const std::string& log) {
                                                                   : 1e3 * std::stod(log.substr(number + 1));
 }
 
-/// Renders the scene file once. Nothing where that fails.
-std::optional<double> trace(const fs::path& scene, const fs::path& picture, const StudyView& view,
-                            int threads) {
-  const auto log = run_program("povray",
-                               {"povray", "+I" + scene.string(), "+O" + picture.string(),
-                                "+W" + std::to_string(view.width), "+H" + std::to_string(view.height),
-                                "+FP16", "-D", "-A", "-V", "File_Gamma=1.0", "+WT" + std::to_string(threads)},
-                               Stream::kError);
-  return log ? std::optional(trace_ms(*log)) : std::nullopt;
+/// Renders the scene file once. Milliseconds.
+double trace(const fs::path& scene, const fs::path& picture, const PeerCase& given) {
+  const StudyView& view = given.seen.view;
+  const auto log =
+      run_program("povray",
+                  {"povray", "+I" + scene.string(), "+O" + picture.string(),
+                   "+W" + std::to_string(view.width), "+H" + std::to_string(view.height), "+FP16", "-D", "-A",
+                   "-V", "File_Gamma=1.0", "+WT" + std::to_string(given.threads)},
+                  Stream::kError, kMostSeconds);
+  if (!log) throw PeerError("POV-Ray failed");
+  return trace_ms(*log);
 }
 
-}  // namespace
-
-std::vector<float> visibility_of_ratio(const std::vector<unsigned>& shadowed,
-                                       const std::vector<unsigned>& unshadowed) {
-  std::vector<float> out(shadowed.size(), 0.0f);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    if (unshadowed[i] > 0)
-      out[i] = std::min(1.0f, static_cast<float>(shadowed[i]) / static_cast<float>(unshadowed[i]));
-  return out;
+std::string missing() {
+  return run_program("povray", {"povray", "--version"}, Stream::kError)
+             ? ""
+             : "povray cannot be run (Debian's package povray)";
 }
 
-bool has_povray() {
-  return run_program("povray", {"povray", "--version"}, Stream::kError).has_value();
-}
-
-std::vector<Setting> povray_settings() {
+std::vector<Setting> settings() {
   std::vector<Setting> out;
   for (const std::uint64_t samples : {16u, 64u})
     out.push_back(
@@ -147,32 +121,30 @@ std::vector<Setting> povray_settings() {
   return out;
 }
 
-std::optional<Measured> measure_povray(const StudyCase& seen, const Setting& setting, int rounds, int threads,
-                                       const Image& unshadowed) {
-  const auto* light = std::get_if<DiskLight>(&seen.scene.lights.front().shape);
-  if (!light) return std::nullopt;
-  const Folder folder;
+std::vector<Measured> measure(const PeerCase& given, std::span<const Setting> settings) {
+  const auto& light = std::get<DiskLight>(given.seen.scene.lights.front().shape);
+  const TemporaryFolder folder("povray");
   const fs::path scene = folder.path() / "s.pov", picture = folder.path() / "s.ppm";
-  const auto side = static_cast<int>(std::lround(std::sqrt(integer_of(setting.options, "samples"))));
-  const std::size_t pixels = unshadowed.at("A").size();
-  write_scene(scene, seen, *light, side, false);
-  if (!trace(scene, picture, seen.view, threads)) return std::nullopt;
-  const std::vector<unsigned> lit = read_ppm(picture, pixels);
-  write_scene(scene, seen, *light, side, true);
-  Measured out;
-  for (int round = 0; round < rounds; ++round) {
-    const auto ms = trace(scene, picture, seen.view, threads);
-    if (!ms) return std::nullopt;
-    out.frames.push_back(*ms);
+  const std::size_t pixels = given.unshadowed.at("A").size();
+  write_scene(scene, given.seen, light, 1, false);
+  trace(scene, picture, given);
+  const std::vector<float> lit = read_ppm(picture, pixels), whole(pixels, 1.0f);
+  std::vector<Measured> out;
+  for (const Setting& setting : settings) {
+    const auto side = static_cast<int>(std::lround(std::sqrt(integer_of(setting.options, "samples"))));
+    write_scene(scene, given.seen, light, side, true);
+    std::vector<double> frames;
+    for (int round = 0; round < given.rounds; ++round) frames.push_back(trace(scene, picture, given));
+    out.push_back(peer_result(given, visibility_of_ratio(read_ppm(picture, pixels), lit, whole),
+                              std::move(frames), "trace", "POV-Ray"));
   }
-  out.visibility = visibility_of_ratio(read_ppm(picture, pixels), lit);
-  for (std::size_t i = 0; i < pixels; ++i)
-    if (unshadowed.at("A")[i] == 0.0f) out.visibility[i] = 1.0f;
-  out.image = unshadowed;
-  out.image.channels["visibility"] = out.visibility;
-  out.stages = {{"trace", quartiles_of(out.frames).median}};
-  out.renderer = "POV-Ray";
   return out;
+}
+
+}  // namespace
+
+Peer povray_peer() {
+  return {.name = "povray", .settings = settings(), .missing = missing, .measure = measure};
 }
 
 }  // namespace penumbra::apps

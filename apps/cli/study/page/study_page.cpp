@@ -1,8 +1,13 @@
-#include "apps/cli/study/study_page.h"
+#include "apps/cli/study/page/study_page.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <map>
+#include <set>
 
+#include "apps/cli/study/page/base64.h"
 #include "mesh/io/write_file.h"
 
 namespace penumbra::apps {
@@ -14,26 +19,34 @@ constexpr const char* kScripts[] = {"uPlot.iife.min.js", "data.js",   "pictures.
                                     "tables.js",         "growth.js", "main.js"};
 constexpr const char* kStyles[] = {"uPlot.min.css", "page.css"};
 
-/// RFC 4648.
-std::string base64_of(const std::string& bytes) {
-  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k > bytes.size() ? '=' : kLetters[group >> (18 - 6 * k) & 63];
-  }
-  return out;
-}
-
 void add_picture(json& pictures, const std::filesystem::path& folder, const json& owner, const char* key) {
   if (!owner.contains(key)) return;
   const std::string name = owner[key];
   std::ifstream in(folder / name, std::ios::binary);
   if (!in) return;
-  pictures[name] = base64_of({std::istreambuf_iterator<char>(in), {}});
+  pictures[name] = base64_of(std::string(std::istreambuf_iterator<char>(in), {}));
+}
+
+/// Keys of the rows whose pictures are shown at full size: the defaults, and those than which none of the same case is both
+/// faster and more accurate.
+std::set<std::string> large_pictures(const StudyRecord& record) {
+  std::map<std::string, std::vector<const json*>> by_case;
+  for (const json& row : record.rows())
+    if (!row.contains("refused")) by_case[row.at("case")].push_back(&row);
+  const auto number = [](const json& row, const char* pointer) {
+    return row.at(json::json_pointer(pointer)).get<double>();
+  };
+  std::set<std::string> keys;
+  for (auto& [name, rows] : by_case) {
+    std::ranges::sort(rows, {}, [&](const json* row) { return number(*row, "/frame_ms/median"); });
+    double best = std::numeric_limits<double>::infinity();
+    for (const json* row : rows) {
+      const double error = number(*row, "/error/penumbra/rmse");
+      if (error < best || row->at("varied") == "") keys.insert(row->at("key"));
+      best = std::min(best, error);
+    }
+  }
+  return keys;
 }
 
 json pictures_of(const StudyRecord& record) {
@@ -42,7 +55,9 @@ json pictures_of(const StudyRecord& record) {
   for (const json& seen : record.cases())
     for (const char* key : {"lit_picture", "reference_picture", "disks_picture"})
       add_picture(pictures, folder, seen, key);
-  for (const json& row : record.rows()) add_picture(pictures, folder, row, "picture");
+  const std::set<std::string> large = large_pictures(record);
+  for (const json& row : record.rows())
+    add_picture(pictures, folder, row, large.contains(row.at("key")) ? "picture" : "small_picture");
   return pictures;
 }
 

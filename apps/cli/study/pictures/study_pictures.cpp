@@ -1,10 +1,12 @@
-#include "apps/cli/study/study_pictures.h"
+#include "apps/cli/study/pictures/study_pictures.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
+
+#include "apps/cli/study/pictures/webp.h"
 
 namespace penumbra::apps {
 namespace {
@@ -14,9 +16,7 @@ constexpr int kMostColumns = 320;
 using Rgb = std::array<unsigned char, 3>;
 
 /// Every `step`-th pixel of every `step`-th row.
-void write_thinned(const std::filesystem::path& path, int width, int height,
-                   const std::function<Rgb(std::size_t)>& color_of) {
-  const int step = thinning_of(width);
+std::string thinned(int width, int height, int step, const std::function<Rgb(std::size_t)>& color_of) {
   const int columns = (width + step - 1) / step, rows = (height + step - 1) / step;
   std::vector<unsigned char> bytes;
   for (int y = 0; y < rows; ++y)
@@ -25,7 +25,7 @@ void write_thinned(const std::filesystem::path& path, int width, int height,
                                  static_cast<std::size_t>(x * step));
       bytes.insert(bytes.end(), color.begin(), color.end());
     }
-  write_png(path, columns, rows, bytes);
+  return encode_webp(columns, rows, bytes);
 }
 
 unsigned char to_byte(double value) {
@@ -58,27 +58,27 @@ LitPicture make_lit_picture(Image image) {
   return out;
 }
 
-void write_lit(const std::filesystem::path& path, const LitPicture& lit) {
+std::string encode_lit(const LitPicture& lit) {
   const std::vector<unsigned char> srgb = encode_srgb(lit.image, lit.exposure_stops);
-  write_thinned(path, lit.image.width, lit.image.height, [&](std::size_t i) {
+  return thinned(lit.image.width, lit.image.height, thinning_of(lit.image.width), [&](std::size_t i) {
     return Rgb{srgb[3 * i], srgb[3 * i + 1], srgb[3 * i + 2]};
   });
 }
 
-void write_reference(const std::filesystem::path& path, const LitPicture& lit,
-                     std::span<const float> reference) {
+std::string encode_reference(const LitPicture& lit, std::span<const float> reference) {
   const std::vector<float>& unshadowed = lit.image.at("visibility");
-  write_thinned(path, lit.image.width, lit.image.height, [&](std::size_t i) {
+  return thinned(lit.image.width, lit.image.height, thinning_of(lit.image.width), [&](std::size_t i) {
     const auto value = static_cast<unsigned>(std::lround(65'535.0 * static_cast<double>(reference[i])));
     return Rgb{static_cast<unsigned char>(value >> 8), static_cast<unsigned char>(value & 255),
                to_byte(255.0 * static_cast<double>(unshadowed[i]))};
   });
 }
 
-void write_error(const std::filesystem::path& path, const Image& image, std::span<const float> visibility,
-                 std::span<const float> reference, std::span<const std::int8_t> region) {
+std::string encode_error(const Image& image, std::span<const float> visibility,
+                         std::span<const float> reference, std::span<const std::int8_t> region,
+                         int step_factor) {
   const std::vector<float>& alpha = image.at("A");
-  write_thinned(path, image.width, image.height, [&](std::size_t i) {
+  return thinned(image.width, image.height, step_factor * thinning_of(image.width), [&](std::size_t i) {
     if (alpha[i] == 0.0f) return Rgb{0, 0, 0};
     const int certified = region.empty() ? 0 : region[i] == 0 ? 1 : region[i] == 2 ? 2 : 0;
     return Rgb{error_byte(static_cast<double>(visibility[i]) - static_cast<double>(reference[i])),

@@ -1,12 +1,11 @@
-#include "apps/cli/study/study_disks.h"
+#include "apps/cli/study/pictures/study_disks.h"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <optional>
 
-#include "apps/cli/study/study_pictures.h"
-#include "penumbra/render/image/image.h"
+#include "apps/cli/study/pictures/study_pictures.h"
+#include "apps/cli/study/pictures/webp.h"
 #include "penumbra/render/visibility.h"
 
 namespace penumbra::apps {
@@ -63,8 +62,7 @@ struct Chosen {
 
 }  // namespace
 
-bool write_disks(const std::filesystem::path& path, const StudyCase& seen, const SurfaceBuffer& surface,
-                 int threads) {
+std::optional<std::string> encode_disks(const StudyCase& seen, const SurfaceBuffer& surface, int threads) {
   const Chosen chosen(surface, kDiskSpacing * thinning_of(surface.width));
   const Casters casters(seen.scene.objects, threads);
   const int width = chosen.columns * kDiskPoints, height = chosen.rows * kDiskPoints;
@@ -73,7 +71,7 @@ bool write_disks(const std::filesystem::path& path, const StudyCase& seen, const
     for (int column = 0; column < kDiskPoints; ++column) {
       const auto place = [](int k) { return (2.0 * k + 1.0) / kDiskPoints - 1.0; };
       const auto light = std::visit(PointOf{place(column), -place(row)}, seen.scene.lights.front().shape);
-      if (!light) return false;
+      if (!light) return std::nullopt;
       const std::vector<float> hard =
           visibility(casters, *light, chosen.receivers(), {.method = "hard"}).visibility;
       for (std::size_t k = 0; k < hard.size(); ++k) {
@@ -84,8 +82,7 @@ bool write_disks(const std::filesystem::path& path, const StudyCase& seen, const
           bytes[3 * (y * static_cast<std::size_t>(width) + x) + c] = hard[k] > 0.5f ? 255 : 0;
       }
     }
-  write_png(path, width, height, bytes);
-  return true;
+  return encode_webp(width, height, bytes);
 }
 
 }  // namespace penumbra::apps

@@ -1,0 +1,49 @@
+// study: the processes of `mpirun -n K penumbra study`. MPI is optional when Penumbra is built, and its
+// libraries are opened where mpirun has started the program, nowhere else.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace penumbra::apps {
+
+struct MpiLibrary;
+
+struct RankMessage {
+  int from = 0, tag = 0;
+  std::string bytes;
+};
+
+/// Any thread may call its functions.
+class Ranks {
+ public:
+  /// Null where the program was not started by mpirun, or alone. Throws UsageError where it was, and cannot do it: built without
+  /// MPI.
+  static std::unique_ptr<Ranks> of_this_run();
+  /// Ends MPI; where `abandon` was called without waiting for others.
+  ~Ranks();
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  void send(int to, int tag, const std::string& bytes = {});
+  /// A message that has come; nothing where none has.
+  std::optional<RankMessage> poll();
+  /// Ends all processes, with exit code 1.
+  [[noreturn]] void abort();
+  /// Others are gone: MPI cannot be ended with them.
+  void abandon() { abandoned_ = true; }
+
+ private:
+  Ranks(const MpiLibrary& library, int rank, int size) : library_(library), rank_(rank), size_(size) {}
+
+  const MpiLibrary& library_;
+  const int rank_, size_;
+  bool abandoned_ = false;
+  std::mutex mutex_;
+};
+
+}  // namespace penumbra::apps
