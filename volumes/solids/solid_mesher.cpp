@@ -18,14 +18,15 @@ namespace {
 constexpr int kBoxDepth = 5;          ///< the bound is halved so often to find where shadow may be
 constexpr int kBisections = 8;        ///< of a crossed edge
 constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from its ends
-/// Of the tolerance: grid points are at most so far apart, and at least. Where solids are thin they are as far apart as this share
-/// of volume over area, so that what is lost to the safe side stays a small share of the volume.
-constexpr double kCoarsest = 2.0, kFinest = 1.0, kThickness = 0.22;
+/// Of the tolerance: grid points are at most so far apart, and at least. Between, their distance is kThickness of the tolerance times
+/// (volume over area, in tolerances)^1.5. What is lost to the safe side is a share of the volume that grows with distance over
+/// thickness; and thin solids lose more, since their detail is as fine as the tolerance.
+constexpr double kCoarsest = 2.0, kFinest = 0.95, kThickness = 0.097;
 constexpr double kNearWall =
     4e-3;  ///< of the tolerance: grid points so near to the light's plane are outside
-constexpr double kFirstLook = 4.0;    ///< of the tolerance: the grid that tells volume and area
+constexpr double kFirstLook = 4.0;     ///< of the tolerance: the grid that tells volume and area
 constexpr double kSimplified = 0.075;  ///< of the spacing: so far may simplification move a point
-constexpr int kProofDepth = 1;        ///< so often are triangles divided where they cannot be proved whole
+constexpr int kProofDepth = 1;         ///< so often are triangles divided where they cannot be proved whole
 
 class Mesher {
  public:
@@ -148,7 +149,8 @@ class Mesher {
       }
     }
     if (!(volume > 0.0 && area > 0.0)) return coarsest;
-    return std::clamp(kThickness * volume / area, kFinest * request_.tolerance, coarsest);
+    const double thickness = volume / area / request_.tolerance;
+    return request_.tolerance * std::clamp(kThickness * std::pow(thickness, 1.5), kFinest, kCoarsest);
   }
 
   /// What is lit sees the light, so that it hangs together with what lies outside of the grid. What does not is a fault of the
