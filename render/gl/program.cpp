@@ -1,5 +1,6 @@
 #include "render/gl/program.h"
 
+#include <new>
 #include <vector>
 
 #include "penumbra/mesh/error.h"
@@ -105,13 +106,16 @@ Object::~Object() {
 }
 
 void require_no_error(const Functions& gl, const char* doing) {
-  if (const GLenum error = gl.GetError(); error != GL_NO_ERROR)
+  const GLenum error = gl.GetError();
+  if (error == GL_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != GL_NO_ERROR)
     throw SystemError(std::string("OpenGL error ") + std::to_string(error) + " while " + doing);
 }
 
 void require_complete_framebuffer(const Functions& gl, const char* doing) {
-  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw SystemError(std::string("OpenGL framebuffer is incomplete while ") + doing);
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
+  require_no_error(gl, doing);  // a texture for which there was no memory, say
+  throw SystemError(std::string("OpenGL framebuffer is incomplete while ") + doing);
 }
 
 }  // namespace penumbra::gl

@@ -183,8 +183,9 @@ void add_glass(const Scene& scene, const GlassRays* glass, const SurfaceBuffer& 
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 1024), [&](const auto& range) {
       std::vector<GlassCrossing> crossings;
       for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const std::size_t row = i / width, column = i % width;
         const Vec3 direction =
-            pixels.direction(static_cast<double>(i % width) + at.x, static_cast<double>(i / width) + at.y);
+            pixels.direction(static_cast<double>(column) + at.x, static_cast<double>(row) + at.y);
         const double distance =
             surface.hit(i) ? glm::distance(surface.position[i], pixels.origin) / glm::length(direction)
                            : kInfinity;
