@@ -2,7 +2,7 @@
 //
 // What is compared is run in turn: in every round each setting draws one frame, and the default method one beside it, so
 // that a busy minute falls on all of them and ratios are of pairs. Before a timed frame of less than 150 ms
-// the same frame is drawn once without being timed, since buffers and caches were another setting's.
+// the same frame is drawn once without being timed, since buffers and caches were another setting's. Of a frame of more than 2 s one is timed.
 #pragma once
 
 #include <optional>

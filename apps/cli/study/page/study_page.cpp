@@ -28,11 +28,13 @@ void add_picture(json& pictures, const std::filesystem::path& folder, const json
 }
 
 /// Keys of the rows whose pictures are shown at full size: the defaults, and those than which none of the same case is both
-/// faster and more accurate.
+/// faster and more accurate; none of cases that show how cost grows.
 std::set<std::string> large_pictures(const StudyRecord& record) {
   std::map<std::string, std::vector<const json*>> by_case;
   for (const json& row : record.rows())
     if (!row.contains("refused")) by_case[row.at("case")].push_back(&row);
+  for (const json& seen : record.cases())
+    if (seen.at("sweep") != "") by_case.erase(seen.at("id").get<std::string>());
   const auto number = [](const json& row, const char* pointer) {
     return row.at(json::json_pointer(pointer)).get<double>();
   };

@@ -109,7 +109,7 @@ const fitDisk = (meshes, light) => {
   eachCorner(meshes, light, depth => { far = Math.max(far, depth); });
   const casters = meshes.filter(mesh => mesh.castShadow);
   eachCorner(casters, light, depth => { if (depth > 0) nearest = Math.min(nearest, depth); });
-  const near = Math.max(.9 * nearest, 1e-3 * far);
+  const near = Math.max(.9 * nearest, .05 * far);  // a map is of no use right under a lamp
   eachCorner(casters, light, (depth, aside) => { slope = Math.max(slope, aside / Math.max(depth, near)); });
   slope = Math.min(Math.tan(75 * Math.PI / 180), 1.02 * (slope + light.radius / near));
   return { near, far: 1.01 * far, slope, uniform: light.radius / (2 * near * slope) };
@@ -125,6 +125,13 @@ const fitDistant = (meshes, light) => {
   half = 1.02 * (half + tangent * (far - low));
   const back = .1 * (far - low);  // the light stands so far before the casters
   return { low: low - back, near: .5 * back, far: 1.01 * (far - low) + back, half, uniform: tangent / (2 * half) };
+};
+
+/** Whether casters stand around a near light: it then sees them from inside, and their far faces are the ones that are lit. */
+const isAround = (meshes, light) => {
+  let behind = false;
+  if (light.kind === "disk") eachCorner(meshes.filter(mesh => mesh.castShadow), light, depth => { behind ||= depth < 0; });
+  return behind;
 };
 
 const lightOf = (light, meshes) => {
@@ -168,7 +175,7 @@ const run = () => {
   const scene = new THREE.Scene(), meshes = source.objects.map(meshOf), camera = cameraOf(source);
   const { light, uniforms } = lightOf(source.light, meshes);
   scene.add(light, light.target, ...meshes);
-  if (meshes.some(mesh => mesh.castShadow && !mesh.userData.closed))
+  if (meshes.some(mesh => mesh.castShadow && !mesh.userData.closed) || isAround(meshes, source.light))
     uniforms.pcssBias.value = .003 * (uniforms.pcssFar.value - uniforms.pcssNear.value);
   const pixels = new Float32Array(4 * source.width * source.height), one = new Float32Array(4);
   const draw = () => {
