@@ -1,0 +1,130 @@
+// The planner's decisions, from facts made by hand.
+#include "penumbra/render/plan/plan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "penumbra/mesh/error.h"
+#include "render/plan/cost_model.h"
+
+namespace penumbra {
+namespace {
+
+LightFacts ordinary() {
+  return {.receivers = 300'000,
+          .dark = 20'000,
+          .casters = {{.object = 1, .name = "bunny.ply", .faces = 3'000, .edges = 4'500},
+                      {.object = 2, .name = "box.off", .faces = 12, .edges = 18}},
+          .sampled = {.receivers = 512,
+                      .penumbra = 0.15,
+                      .variance = 0.12,
+                      .edges = 2.0,
+                      .merged_edges = 2.0,
+                      .boxes = 4.0}};
+}
+
+LightFacts crowded() {
+  LightFacts facts = ordinary();
+  facts.casters[0].faces = 60'000;
+  facts.casters[0].edges = 180'000;
+  facts.sampled.penumbra = 0.7;
+  facts.sampled.edges = 6'000.0;
+  facts.sampled.merged_edges = 6'000.0;
+  facts.sampled.boxes = 40.0;
+  return facts;
+}
+
+const Decision& decision_about(const LightPlan& plan, const std::string& about) {
+  const auto found = std::ranges::find(plan.decisions, about, &Decision::about);
+  if (found == plan.decisions.end()) throw std::out_of_range(about);
+  return *found;
+}
+
+TEST(Plan, ALightThatReachesNoReceiverDoesNothing) {
+  LightFacts facts = ordinary();
+  facts.dark = facts.receivers;
+  const LightPlan plan = make_plan(facts, {});
+  EXPECT_EQ(plan.action, LightPlan::Action::kDark);
+  EXPECT_EQ(decision_about(plan, "light").reason, "reaches-no-receiver");
+  EXPECT_TRUE(decision_about(plan, "light").is_certificate);
+}
+
+TEST(Plan, CastersThatReachNoReceiverAreLeftOut) {
+  LightFacts facts = ordinary();
+  facts.casters[0].reach = CasterReach::kMissesReceivers;
+  const LightPlan plan = make_plan(facts, {});
+  EXPECT_EQ(plan.action, LightPlan::Action::kMethod);
+  EXPECT_EQ(plan.left_out, (std::vector<char>{1, 0}));
+  EXPECT_EQ(decision_about(plan, "caster 1 (bunny.ply)").reason, "misses-receivers");
+  facts.casters[1].reach = CasterReach::kBehindLight;
+  const LightPlan none = make_plan(facts, {});
+  EXPECT_EQ(none.action, LightPlan::Action::kUnshadowed);
+  EXPECT_EQ(decision_about(none, "caster 2 (box.off)").reason, "behind-light");
+  EXPECT_EQ(decision_about(none, "light").reason, "no-caster-reaches");
+}
+
+TEST(Plan, APointHasAHardShadow) {
+  LightFacts facts = ordinary();
+  facts.is_point = true;
+  EXPECT_EQ(make_plan(facts, {}).method, "hard");
+}
+
+TEST(Plan, FewEdgesAreIntegratedAndManyAreLeftToRays) {
+  EXPECT_EQ(make_plan(ordinary(), {}).method, "silhouette");
+  const LightPlan plan = make_plan(crowded(), {});
+  EXPECT_TRUE(plan.method == "reference" || plan.method == "rays") << plan.method;
+  EXPECT_LE(plan.error, 0.01);
+  EXPECT_FALSE(decision_about(plan, "method").is_certificate);
+}
+
+TEST(Plan, MoreRaysAreTakenForLessError) {
+  std::uint64_t before = 0;
+  for (const double error : {0.1, 0.03, 0.01}) {
+    LightFacts facts = crowded();
+    facts.is_rectangle = true;  // rays alone take it
+    const LightPlan plan = make_plan(facts, {.max_error = error});
+    ASSERT_EQ(plan.method, "reference");
+    EXPECT_LE(plan.error, error);
+    const auto samples = std::get<std::uint64_t>(plan.options.at("samples"));
+    EXPECT_GT(samples, before) << error;
+    before = samples;
+  }
+}
+
+TEST(Plan, SaysWhereNoMethodIsSoAccurate) {
+  const LightPlan plan = make_plan(crowded(), {.max_error = 1e-9});
+  EXPECT_EQ(decision_about(plan, "method").reason, "most-accurate");
+  EXPECT_THROW(make_plan(ordinary(), {.max_error = 0.0}), UsageError);
+}
+
+TEST(Plan, ChoosesTheCheapestOfWhatKeepsTheError) {
+  for (const LightFacts& facts : {ordinary(), crowded()})
+    for (const double error : {0.1, 0.01, 0.003}) {
+      const LightPlan plan = make_plan(facts, {.max_error = error});
+      const auto& numbers = decision_about(plan, "method").numbers;
+      const auto value = [&](const std::string& name) {
+        return std::ranges::find(numbers, name, &DecisionNumber::name)->value;
+      };
+      for (const char* method : {"silhouette", "rays", "reference"})
+        if (value(std::string(method) + "_error") <= error) {
+          EXPECT_LE(plan.milliseconds, value(std::string(method) + "_ms")) << method << ", " << error;
+        }
+    }
+}
+
+TEST(CostModel, ErrorsOfRaysFallAndAreNeverWorseThanChance) {
+  for (const LightFacts& facts : {ordinary(), crowded()}) {
+    double before = 1.0;
+    for (const int samples : {4, 16, 64, 256, 1024}) {
+      const double error = detail::error_of_rays(facts, samples);
+      EXPECT_LT(error, before);
+      EXPECT_LE(error, std::sqrt(facts.sampled.variance / samples));
+      before = error;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra
