@@ -6,6 +6,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/plan/plan.h"
 #include "render/antialias.h"
 #include "render/casters_impl.h"
 #include "render/d_buffer/d_buffer_method.h"

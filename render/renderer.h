@@ -10,11 +10,13 @@
 #include <vector>
 
 #include "penumbra/render/image/image.h"
-#include "penumbra/render/plan/plan.h"
 #include "penumbra/render/receivers/surface_buffer.h"
 #include "penumbra/render/visibility.h"
 
 namespace penumbra {
+
+struct LightPlan;
+struct PlanRequest;
 
 /// Registers the methods that draw (OpenGL): dbuffer, occlusion-textures. Called again it does nothing.
 /// Renderers call it; call it yourself to list all methods before there is one.

@@ -1,11 +1,16 @@
 // penumbra plan: what the method auto would do for a scene, and why.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "apps/cli/commands.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
 #include "apps/common/stats.h"
+#include "penumbra/render/plan/plan.h"
 #include "penumbra/render/renderer.h"
 
 namespace penumbra::apps {
@@ -17,16 +22,40 @@ constexpr const char* kFooter = R"(Examples:
 A certificate is a proof that the picture is the same without what is left out. Times are a model's, for the machine of
 docs/plan.md; only their ratios matter here.)";
 
+constexpr std::string_view kCaster = "caster ";
+
 struct Arguments {
   CommonOptions common;
   SceneInput scene;
   std::string size = "640x480";
-  double max_error = PlanRequest{}.max_error;
+  PlanRequest request;
   bool json = false;
 };
 
-const OptionSchema& error_option() {
-  return method_named("auto").options.front();
+const OptionSchema& option_named(const std::string& name) {
+  const std::vector<OptionSchema>& options = method_named("auto").options;
+  return *std::ranges::find(options, name, &OptionSchema::name);
+}
+
+/// An option of the method auto.
+template <class T>
+void add_option_of_auto(CLI::App& command, const std::string& name, T& value) {
+  const OptionSchema& option = option_named(name);
+  command.add_option("--" + name, value, option.help + " (" + option.allowed() + ")")->capture_default_str();
+}
+
+/// Throws UsageError for what the method auto would not take.
+void require_allowed(const PlanRequest& request) {
+  option_named("max-error").require_allowed(request.max_error);
+  option_named("max-ms").require_allowed(request.max_ms);
+  option_named("plan-frames").require_allowed(static_cast<std::uint64_t>(std::max(0, request.frames)));
+}
+
+nlohmann::json to_json(const SampledPart& part) {
+  return {{"share", part.share},
+          {"edges", part.edges},
+          {"merged_edges", part.merged_edges},
+          {"boxes", part.boxes}};
 }
 
 nlohmann::json to_json(const LightFacts& facts) {
@@ -42,11 +71,10 @@ nlohmann::json to_json(const LightFacts& facts) {
           {"faces", faces},
           {"edges", edges},
           {"sampled_receivers", facts.sampled.receivers},
-          {"penumbra", facts.sampled.penumbra},
           {"variance", facts.sampled.variance},
-          {"edges_across", facts.sampled.edges},
-          {"merged_edges_across", facts.sampled.merged_edges},
-          {"boxes", facts.sampled.boxes}};
+          {"lit", to_json(facts.sampled.lit)},
+          {"penumbra", to_json(facts.sampled.penumbra)},
+          {"hidden", to_json(facts.sampled.hidden)}};
 }
 
 nlohmann::json to_json(const Light& light, const LightPlan& plan) {
@@ -71,18 +99,40 @@ std::string to_text(const Decision& decision) {
   return text + (numbers.empty() ? "" : numbers + "\n");
 }
 
+/// Casters of one choice and reason, in one line.
+std::string casters_to_text(const std::vector<Decision>& decisions, const Decision& first) {
+  std::string names;
+  double faces = 0.0;
+  std::size_t count = 0;
+  for (const Decision& each : decisions) {
+    if (each.choice != first.choice || each.reason != first.reason) continue;
+    names += (count++ ? ", " : "") + each.about.substr(kCaster.size());
+    for (const DecisionNumber& number : each.numbers) faces += number.name == "faces" ? number.value : 0.0;
+  }
+  char line[64];
+  std::snprintf(line, sizeof line, "  %zu caster%s of %.0f faces: ", count, count == 1 ? "" : "s", faces);
+  return line + first.choice + ", since " + first.text + " [" + first.reason + ", certificate]\n    " +
+         names + "\n";
+}
+
 std::string to_text(const Light& light, std::size_t index, const LightPlan& plan) {
   std::string text = "light " + (light.name.empty() ? std::to_string(index) : light.name) + "\n";
-  for (const Decision& decision : plan.decisions) text += to_text(decision);
+  std::set<std::pair<std::string, std::string>> said;
+  for (const Decision& decision : plan.decisions) {
+    if (!decision.about.starts_with(kCaster))
+      text += to_text(decision);
+    else if (said.insert({decision.choice, decision.reason}).second)
+      text += casters_to_text(plan.decisions, decision);
+  }
   return text;
 }
 
 void run(const Arguments& arguments) {
   const PixelPair size = parse_size(arguments.size);
-  error_option().require_allowed(arguments.max_error);
+  require_allowed(arguments.request);
   const ThreadLimit limit(arguments.common.threads);
   Renderer renderer(load(arguments.scene), arguments.common.threads);
-  const std::vector<LightPlan> plans = renderer.plan({.max_error = arguments.max_error}, size.x, size.y);
+  const std::vector<LightPlan> plans = renderer.plan(arguments.request, size.x, size.y);
   nlohmann::json json = nlohmann::json::array();
   std::string text;
   for (std::size_t k = 0; k < plans.size(); ++k) {
@@ -100,10 +150,9 @@ void add_plan_command(CLI::App& app) {
       *app.add_subcommand("plan", "What the method auto would do for each light of a scene, and why");
   auto arguments = std::make_shared<Arguments>();
   add_scene_input(command, arguments->scene);
-  command
-      .add_option("--max-error", arguments->max_error,
-                  error_option().help + " (" + error_option().allowed() + ")")
-      ->capture_default_str();
+  add_option_of_auto(command, "max-error", arguments->request.max_error);
+  add_option_of_auto(command, "max-ms", arguments->request.max_ms);
+  add_option_of_auto(command, "plan-frames", arguments->request.frames);
   command.add_option("--size", arguments->size, "Pixels of the picture, WIDTHxHEIGHT")
       ->capture_default_str()
       ->type_name("WxH");

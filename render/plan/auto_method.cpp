@@ -16,15 +16,13 @@ using namespace detail;
 /// Methods for the scene without some casters. Meshes are shared.
 class ReducedScene {
  public:
-  ReducedScene(const Scene& objects, const LightFacts& facts, const std::vector<char>& left_out)
-      : left_out_(left_out) {
+  ReducedScene(const Scene& objects, const LightFacts& facts, const std::vector<char>& left_out) {
     for (const SceneObject& object : objects.objects)
       scene_.objects.push_back({.name = object.name, .mesh = object.mesh, .casts = object.casts});
     for (std::size_t k = 0; k < left_out.size(); ++k)
       if (left_out[k]) scene_.objects[facts.casters[k].object].casts = false;
   }
 
-  const std::vector<char>& left_out() const { return left_out_; }
   Method& method(const std::string& name) {
     std::unique_ptr<Method>& made = methods_[name];
     if (!made) made = method_named(name).make(scene_);
@@ -35,13 +33,15 @@ class ReducedScene {
   }
 
  private:
-  std::vector<char> left_out_;
   Scene scene_;
   std::map<std::string, std::unique_ptr<Method>, std::less<>> methods_;
 };
 
 PlanRequest request_of(const MethodInput& input) {
-  return {.max_error = real_of(input.options, "max-error"), .with_unoccluded = input.with_unoccluded};
+  return {.max_error = real_of(input.options, "max-error"),
+          .max_ms = real_of(input.options, "max-ms"),
+          .with_unoccluded = input.with_unoccluded,
+          .frames = static_cast<int>(integer_of(input.options, "plan-frames"))};
 }
 
 class AutoMethod : public Method {
@@ -69,15 +69,15 @@ class AutoMethod : public Method {
 
   void forget() override {
     boxes_.reset();
-    if (reduced_) reduced_->forget();
+    for (const auto& [left_out, reduced] : reduced_) reduced->forget();
   }
 
  private:
   MethodResult run_method(const MethodInput& input, const LightFacts& facts, const LightPlan& plan) {
-    if (!reduced_ || reduced_->left_out() != plan.left_out) reduced_.emplace(objects_, facts, plan.left_out);
     const MethodInfo& info = method_named(plan.method);
     const OptionValues options = completed(info.options, plan.options);
-    return reduced_->method(plan.method)
+    return without(facts, plan.left_out)
+        .method(plan.method)
         .run({.rays = input.rays,
               .light = input.light,
               .receivers = input.receivers,
@@ -85,6 +85,18 @@ class AutoMethod : public Method {
               .with_unoccluded = input.with_unoccluded,
               .keep_textures = input.keep_textures,
               .progress = input.progress});
+  }
+
+  /// The scene without these casters. While a light moves they may be others in every frame: where they have been often, all
+  /// casters are kept.
+  ReducedScene& without(const LightFacts& facts, const std::vector<char>& left_out) {
+    constexpr std::size_t kMost = 8;
+    const auto known = reduced_.find(left_out);
+    if (known != reduced_.end()) return *known->second;
+    const std::vector<char> used = reduced_.size() < kMost ? left_out : std::vector<char>(left_out.size(), 0);
+    std::unique_ptr<ReducedScene>& made = reduced_[used];
+    if (!made) made = std::make_unique<ReducedScene>(objects_, facts, used);
+    return *made;
   }
 
   /// Kept while the receivers stay the same.
@@ -99,7 +111,8 @@ class AutoMethod : public Method {
   const Scene& objects_;
   std::optional<ReceiverBoxes> boxes_;
   std::uint64_t revision_ = 0;
-  std::optional<ReducedScene> reduced_;
+  /// By the flags of casters that are left out.
+  std::map<std::vector<char>, std::unique_ptr<ReducedScene>> reduced_;
 };
 
 std::vector<OptionSchema> auto_options() {
@@ -108,7 +121,21 @@ std::vector<OptionSchema> auto_options() {
            .usual = PlanRequest{}.max_error,
            .unit = {},
            .help = "RMSE of visibility over the penumbra that the chosen method may have",
-           .steps = std::vector<OptionValue>{0.03, 0.01, 0.003}}};
+           .steps = std::vector<OptionValue>{0.03, 0.01, 0.003}},
+          {.name = "max-ms",
+           .domain = RealRange{0.0, 1e9},
+           .usual = PlanRequest{}.max_ms,
+           .unit = "milliseconds",
+           .help = "Time that the chosen method may take, by the model; where the error cannot be kept in "
+                   "it, the most "
+                   "accurate method that can keep the time; 0: no limit",
+           .steps = std::vector<OptionValue>{}},
+          {.name = "plan-frames",
+           .domain = IntegerRange{1, 1'000'000},
+           .usual = static_cast<std::uint64_t>(PlanRequest{}.frames),
+           .unit = "frames",
+           .help = "Frames that share what a method makes once",
+           .steps = std::vector<OptionValue>{}}};
 }
 
 }  // namespace

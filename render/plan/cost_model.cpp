@@ -14,13 +14,16 @@ double reached(const LightFacts& facts) {
   return static_cast<double>(facts.receivers - facts.dark);
 }
 
-double in_penumbra(const LightFacts& facts) {
-  return reached(facts) * facts.sampled.penumbra;
+double nanoseconds_of_ray(const LightFacts& facts, double boxes) {
+  return fit::kRay + fit::kRayLogFaces * std::log2(1.0 + totals_of_reaching(facts).faces) +
+         fit::kRayBox * boxes;
 }
 
-double nanoseconds_of_ray(const LightFacts& facts) {
-  return fit::kRay + fit::kRayLogFaces * std::log2(1.0 + totals_of_reaching(facts).faces) +
-         fit::kRayBox * facts.sampled.boxes;
+/// Receivers that certificates leave open: the penumbra, and others before which edges lie.
+double open(const LightFacts& facts) {
+  const SampledFacts& s = facts.sampled;
+  return reached(facts) * (s.penumbra.share + s.hidden.share * std::min(1.0, s.hidden.edges) +
+                           s.lit.share * std::min(1.0, s.lit.edges));
 }
 
 Cost in_milliseconds(double frame, double setup) {
@@ -40,35 +43,36 @@ CasterTotals totals_of_reaching(const LightFacts& facts) {
 }
 
 Cost cost_of_silhouette(const LightFacts& facts) {
-  const double edges = totals_of_reaching(facts).edges, penumbra = in_penumbra(facts);
+  const double edges = totals_of_reaching(facts).edges, receivers = reached(facts);
   return in_milliseconds(
-      fit::kSilhouetteReceiver * reached(facts) + fit::kSilhouetteBandEdge * edges +
-          penumbra * (fit::kSilhouettePenumbra + fit::kSilhouetteEdge * facts.sampled.edges +
-                      fit::kSilhouetteMerged * facts.sampled.merged_edges),
+      receivers * (fit::kSilhouetteReceiver + fit::kSilhouetteEdge * facts.sampled.mean(&SampledPart::edges) +
+                   fit::kSilhouetteMerged * facts.sampled.mean(&SampledPart::merged_edges)) +
+          fit::kSilhouetteOpen * open(facts) + fit::kSilhouetteBandEdge * edges,
       fit::kHierarchyEdge * edges);
 }
 
 Cost cost_of_rays(const LightFacts& facts, int samples) {
-  const double edges = totals_of_reaching(facts).edges, penumbra = in_penumbra(facts);
-  return in_milliseconds(fit::kCertifyReceiver * reached(facts) + fit::kCertifyBandEdge * edges +
-                             penumbra * fit::kCertifyEdge * facts.sampled.edges +
-                             penumbra * samples * nanoseconds_of_ray(facts),
-                         fit::kHierarchyEdge * edges);
+  const double edges = totals_of_reaching(facts).edges, receivers = reached(facts);
+  return in_milliseconds(
+      receivers * (fit::kCertifyReceiver + fit::kCertifyEdge * facts.sampled.mean(&SampledPart::edges)) +
+          fit::kCertifyBandEdge * edges +
+          open(facts) * samples * nanoseconds_of_ray(facts, facts.sampled.penumbra.boxes),
+      fit::kHierarchyEdge * edges);
 }
 
 Cost cost_of_reference(const LightFacts& facts, int samples) {
-  const double all = reached(facts) * nanoseconds_of_ray(facts);
-  return in_milliseconds(samples * all, 0.0);
+  return in_milliseconds(
+      reached(facts) * samples * nanoseconds_of_ray(facts, facts.sampled.mean(&SampledPart::boxes)), 0.0);
 }
 
 double error_of_silhouette(const LightFacts& facts) {
   // Up to 20 edges across the light are integrated exactly; more by rows.
   constexpr double kFew = 20.0;
-  return facts.sampled.edges > kFew ? fit::kSilhouetteManyEdges : fit::kSilhouetteLeast;
+  return facts.sampled.penumbra.edges > kFew ? fit::kSilhouetteManyEdges : fit::kSilhouetteLeast;
 }
 
 double error_of_rays(const LightFacts& facts, int samples) {
-  const double n = samples, edges = std::max(1.0, facts.sampled.edges);
+  const double n = samples, edges = std::max(1.0, facts.sampled.penumbra.edges);
   const double by_chance = facts.sampled.variance / n;
   const double by_strata = fit::kStrata * std::pow(edges, fit::kStrataPower) / (n * std::sqrt(n));
   return by_chance + by_strata > 0.0 ? std::sqrt(by_chance * by_strata / (by_chance + by_strata)) : 0.0;

@@ -4,7 +4,7 @@
 namespace penumbra::detail::fit {
 
 // Nanoseconds.
-inline constexpr double kSilhouetteReceiver = 60.0, kSilhouetteBandEdge = 100.0, kSilhouettePenumbra = 300.0,
+inline constexpr double kSilhouetteReceiver = 60.0, kSilhouetteBandEdge = 100.0, kSilhouetteOpen = 300.0,
                         kSilhouetteEdge = 50.0, kSilhouetteMerged = 5.0;
 inline constexpr double kCertifyReceiver = 60.0, kCertifyBandEdge = 100.0, kCertifyEdge = 10.0;
 inline constexpr double kRay = 3.0, kRayLogFaces = 0.2, kRayBox = 0.2;

@@ -20,20 +20,13 @@ class Reach {
   Reach(const CircularLight& light, const Receivers& receivers, const ReceiverBoxes& boxes, bool horizon)
       : sides_(light), receivers_(receivers), boxes_(boxes), horizon_(horizon) {}
 
+  /// By groups; but all where no receiver at all is lit.
   std::size_t count_dark() const {
-    std::size_t dark = 0;
-    boxes_.find(
-        receivers_,
-        [&](const ReceiverBox& box) {
-          const bool passes = sides_.is_dark(box, horizon_);
-          if (passes) dark += box.count;
-          return passes;
-        },
-        [&](std::uint32_t index) {
-          dark += is_dark(index) ? 1 : 0;
-          return false;
-        });
-    return dark;
+    const auto passes = [&](const ReceiverBox& box) { return sides_.is_dark(box, horizon_); };
+    const bool any = boxes_.find(receivers_, passes, [&](std::uint32_t index) { return !is_dark(index); });
+    if (!any) return boxes_.present();
+    // Never all of them: then a group passes whose receivers are not all dark, by another rounding.
+    return std::min(boxes_.count_passing(passes), boxes_.present() - 1);
   }
 
   CasterReach of_caster(const Bounds& box) const {

@@ -36,25 +36,34 @@ struct CasterFacts {
   CasterReach reach = CasterReach::kMayReach;
 };
 
-/// Of receivers chosen evenly among those that the light reaches. Estimates, the same in every run.
+/// Receivers that are alike in what they see of the light: all of it, a part, or none.
+struct SampledPart {
+  /// Their share of the receivers.
+  double share = 0.0;
+  /// Means of what lies before the light as one of these sees it: silhouette edges; the same where fine faces are merged;
+  /// boxes of faces that the ray to the light's center meets, up to the first face that it hits.
+  double edges = 0.0, merged_edges = 0.0, boxes = 0.0;
+};
+
+/// Of receivers chosen evenly among those that the light reaches, told apart by 16 rays each. Estimates, the same in every
+/// run.
 struct SampledFacts {
-  /// Receivers that were looked at, with 16 rays each.
   std::size_t receivers = 0;
-  /// The share of those that see a part of the light.
-  double penumbra = 0.0;
-  /// The mean of O (1 - O) over these.
+  SampledPart lit{}, penumbra{}, hidden{};
+  /// The mean of O (1 - O) over the penumbra.
   double variance = 0.0;
-  /// Silhouette edges that cross the light as one of these sees it, the mean; and the same where fine faces are merged.
-  double edges = 0.0, merged_edges = 0.0;
-  /// Boxes of faces that a ray from one of these to the light's center meets, the mean.
-  double boxes = 0.0;
+
+  /// The mean of a number over all parts.
+  double mean(double SampledPart::*number) const {
+    return lit.share * (lit.*number) + penumbra.share * (penumbra.*number) + hidden.share * (hidden.*number);
+  }
 };
 
 /// What is known of one light before anything is computed for it.
 struct LightFacts {
   bool is_point = false, is_rectangle = false;
-  /// Receivers that are present. Of these, those that lie behind the light's plane or face away from all of it, as far
-  /// as groups of neighbors tell: they see none of it.
+  /// Receivers that are present. Of these, those in groups of neighbors that lie behind the light's plane or face away from
+  /// all of it: they see none of it. As many as there are where no receiver at all sees any of it.
   std::size_t receivers = 0, dark = 0;
   /// The scene's objects that cast, in their order.
   std::vector<CasterFacts> casters{};
@@ -64,6 +73,9 @@ struct LightFacts {
 struct PlanRequest {
   /// RMSE of V over the penumbra.
   double max_error = 0.01;
+  /// Milliseconds by the model; where the error cannot be kept in it, the most accurate method that can keep the time is
+  /// chosen. 0: no limit.
+  double max_ms = 0.0;
   /// O is wanted, too.
   bool with_unoccluded = false;
   /// The hierarchies that a method makes once are used for so many frames.
@@ -83,7 +95,8 @@ struct LightPlan {
   /// For kMethod: its name and options.
   std::string method{};
   OptionValues options{};
-  /// One flag a caster of the facts: it is left out.
+  /// One flag a caster of the facts: it is left out of what the method is made for. Only where that halves the faces: what
+  /// is made once is else shared with other lights.
   std::vector<char> left_out{};
   /// For kMethod, by the model: milliseconds on the machine of the fit, and RMSE of V over the penumbra.
   double milliseconds = 0.0, error = 0.0;

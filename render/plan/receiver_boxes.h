@@ -35,8 +35,20 @@ class ReceiverBoxes {
     return !levels_.empty() && find_below(receivers, levels_.size() - 1, 0, passes, visit);
   }
 
+  /// How many receivers are in boxes that pass, groups being the smallest.
+  template <class Passes>
+  std::size_t count_passing(const Passes& passes) const {
+    return levels_.empty() ? 0 : count_below(levels_.size() - 1, 0, passes);
+  }
+
  private:
   static constexpr std::size_t kFanOut = 8;
+
+  std::size_t end_of_children(std::size_t level, std::size_t node) const {
+    return std::min((node + 1) * kFanOut, levels_[level - 1].size());
+  }
+  template <class Passes>
+  std::size_t count_below(std::size_t level, std::size_t node, const Passes& passes) const;
 
   template <class Passes, class Visit>
   bool find_below(const Receivers& receivers, std::size_t level, std::size_t node, const Passes& passes,
@@ -59,10 +71,21 @@ bool ReceiverBoxes::find_below(const Receivers& receivers, std::size_t level, st
     });
     return found;
   }
-  const std::size_t end = std::min((node + 1) * kFanOut, levels_[level - 1].size());
-  for (std::size_t child = node * kFanOut; child < end; ++child)
+  for (std::size_t child = node * kFanOut; child < end_of_children(level, node); ++child)
     if (find_below(receivers, level - 1, child, passes, visit)) return true;
   return false;
+}
+
+template <class Passes>
+std::size_t ReceiverBoxes::count_below(std::size_t level, std::size_t node, const Passes& passes) const {
+  const ReceiverBox& box = levels_[level][node];
+  if (box.count == 0) return 0;
+  if (passes(box)) return box.count;
+  std::size_t count = 0;
+  if (level > 0)
+    for (std::size_t child = node * kFanOut; child < end_of_children(level, node); ++child)
+      count += count_below(level - 1, child, passes);
+  return count;
 }
 
 }  // namespace penumbra::detail

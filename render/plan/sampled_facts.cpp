@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/plan/seen_edges.h"
+#include "render/rays/ray_packets.h"
 #include "render/rays/reference.h"
 
 namespace penumbra::detail {
@@ -15,8 +16,8 @@ namespace {
 // Accuracy of the estimates against time: all in all about half a millisecond.
 constexpr std::size_t kReceivers = 512;  ///< looked at by rays
 constexpr int kRays = 16;                ///< for each of them
-constexpr std::size_t kSeeing = 32;      ///< of those in penumbra, so many look at edges and faces
-constexpr std::size_t kEdges = 1024, kFaces = 512;
+constexpr std::size_t kSeeing = 24;      ///< of each part, so many look at edges and faces
+constexpr std::size_t kEdges = 1024, kFaces = 1024;
 // A penumbra that fewer of the receivers than this lie in is taken for a usual one: O evenly spread over 0 to 1.
 constexpr std::size_t kFew = 8;
 constexpr double kUsualVariance = 1.0 / 6.0;
@@ -43,45 +44,55 @@ std::vector<std::uint32_t> some_receivers(const Receivers& receivers,
   return out;
 }
 
+/// How many boxes of faces lie on the way from a receiver to the light's center, or to the first face on it.
+double boxes_before(const FaceSample& faces, const RayScene& rays, const CircularLight& light,
+                    const Receivers& receivers, std::uint32_t index) {
+  Ray ray{.from = start_of(receivers, index),
+          .way = way_to_center(light, receivers.points[index]),
+          .endless = light.is_distant()};
+  if (const auto hit = first_hit(rays, ray))
+    return faces.boxes_on(ray.from.point, hit->distance * ray.way, false);
+  return faces.boxes_on(ray.from.point, ray.way, ray.endless);
+}
+
 }  // namespace
 
 SampledFacts sample_light(const Scene& objects, const RayScene& rays, const CircularLight& circle,
                           const LightShape& light, const Receivers& receivers,
                           std::span<const CasterFacts> casters,
                           const std::function<bool(std::uint32_t)>& is_dark) {
-  SampledFacts out;
+  SampledFacts out{.variance = kUsualVariance};
   const std::vector<std::uint32_t> some = some_receivers(receivers, is_dark);
   out.receivers = some.size();
   if (some.empty()) return out;
-  // By rays: which receivers are in penumbra.
+  // By rays: what each sees.
   const std::vector<float> seen =
       trace_reference(rays, light, receivers, some, {.samples = kRays}, true).unoccluded;
-  std::vector<std::uint32_t> partly;
+  std::vector<std::uint32_t> lit, partly, hidden;
+  double variance = 0.0;
   for (std::size_t i = 0; i < some.size(); ++i) {
     const double o = seen[i];
-    if (!(o > 0.0 && o < 1.0)) continue;
-    partly.push_back(some[i]);
-    out.variance += o * (1.0 - o) * kRays / (kRays - 1.0);
+    (o <= 0.0 ? hidden : o < 1.0 ? partly : lit).push_back(some[i]);
+    variance += o * (1.0 - o) * kRays / (kRays - 1.0);
   }
-  const auto count = static_cast<double>(partly.size());
-  out.penumbra = count / static_cast<double>(some.size());
-  out.variance = partly.size() < kFew ? kUsualVariance : out.variance / count;
-  if (partly.empty()) return out;
-  // By edges and faces: how much lies before these.
-  if (partly.size() > kSeeing) partly.resize(kSeeing);
+  if (partly.size() >= kFew) out.variance = variance / static_cast<double>(partly.size());
+  // By edges and faces: how much lies before them.
   const EdgeSample edges(objects, circle, casters, kEdges);
   const FaceSample faces(objects, casters, kFaces);
-  for (const std::uint32_t index : partly) {
-    const Vec3& x = receivers.points[index];
-    const EdgeSample::Crossing seen_from_x = edges.crossing(x);
-    out.edges += seen_from_x.edges;
-    out.merged_edges += seen_from_x.merged;
-    out.boxes += faces.boxes_on(x, way_to_center(circle, x), circle.is_distant());
-  }
-  const auto seeing = static_cast<double>(partly.size());
-  out.edges /= seeing;
-  out.merged_edges /= seeing;
-  out.boxes /= seeing;
+  const auto look = [&](const std::vector<std::uint32_t>& part) {
+    SampledPart sums{.share = static_cast<double>(part.size()) / static_cast<double>(some.size())};
+    const std::size_t count = std::min(part.size(), kSeeing);
+    for (std::size_t i = 0; i < count; ++i) {
+      const EdgeSample::Crossing crossing = edges.crossing(receivers.points[part[i]]);
+      sums.edges += crossing.edges / static_cast<double>(count);
+      sums.merged_edges += crossing.merged / static_cast<double>(count);
+      sums.boxes += boxes_before(faces, rays, circle, receivers, part[i]) / static_cast<double>(count);
+    }
+    return sums;
+  };
+  out.lit = look(lit);
+  out.penumbra = look(partly);
+  out.hidden = look(hidden);
   return out;
 }
 

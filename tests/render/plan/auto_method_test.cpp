@@ -76,7 +76,7 @@ TEST(AutoMethod, WhatItLeavesOutChangesNothing) {
       }
     }
   }
-  EXPECT_GT(left_out, 600u);
+  EXPECT_GT(left_out, 300u);
   EXPECT_GT(unshadowed, 0u);
   EXPECT_GT(by_silhouettes, 20u);
 }

@@ -18,21 +18,18 @@ LightFacts ordinary() {
           .casters = {{.object = 1, .name = "bunny.ply", .faces = 3'000, .edges = 4'500},
                       {.object = 2, .name = "box.off", .faces = 12, .edges = 18}},
           .sampled = {.receivers = 512,
-                      .penumbra = 0.15,
-                      .variance = 0.12,
-                      .edges = 2.0,
-                      .merged_edges = 2.0,
-                      .boxes = 4.0}};
+                      .lit = {.share = 0.75},
+                      .penumbra = {.share = 0.15, .edges = 2.0, .merged_edges = 2.0, .boxes = 4.0},
+                      .hidden = {.share = 0.1, .boxes = 4.0},
+                      .variance = 0.12}};
 }
 
 LightFacts crowded() {
   LightFacts facts = ordinary();
   facts.casters[0].faces = 60'000;
   facts.casters[0].edges = 180'000;
-  facts.sampled.penumbra = 0.7;
-  facts.sampled.edges = 6'000.0;
-  facts.sampled.merged_edges = 6'000.0;
-  facts.sampled.boxes = 40.0;
+  facts.sampled.lit.share = 0.2;
+  facts.sampled.penumbra = {.share = 0.7, .edges = 6'000.0, .merged_edges = 6'000.0, .boxes = 40.0};
   return facts;
 }
 
@@ -58,6 +55,12 @@ TEST(Plan, CastersThatReachNoReceiverAreLeftOut) {
   EXPECT_EQ(plan.action, LightPlan::Action::kMethod);
   EXPECT_EQ(plan.left_out, (std::vector<char>{1, 0}));
   EXPECT_EQ(decision_about(plan, "caster 1 (bunny.ply)").reason, "misses-receivers");
+  EXPECT_EQ(decision_about(plan, "caster 1 (bunny.ply)").choice, "left out");
+  // For twelve faces of three thousand no method is made anew.
+  LightFacts few = ordinary();
+  few.casters[1].reach = CasterReach::kMissesReceivers;
+  EXPECT_EQ(make_plan(few, {}).left_out, (std::vector<char>{0, 0}));
+  EXPECT_EQ(decision_about(make_plan(few, {}), "caster 2 (box.off)").choice, "no shadow");
   facts.casters[1].reach = CasterReach::kBehindLight;
   const LightPlan none = make_plan(facts, {});
   EXPECT_EQ(none.action, LightPlan::Action::kUnshadowed);
@@ -99,11 +102,37 @@ TEST(Plan, SaysWhereNoMethodIsSoAccurate) {
   EXPECT_THROW(make_plan(ordinary(), {.max_error = 0.0}), UsageError);
 }
 
+TEST(Plan, KeepsATimeWhereItCannotKeepBoth) {
+  const LightPlan free = make_plan(crowded(), {});
+  const LightPlan hurried = make_plan(crowded(), {.max_ms = 0.1 * free.milliseconds});
+  EXPECT_EQ(decision_about(hurried, "method").reason, "within-time");
+  EXPECT_LE(hurried.milliseconds, 0.1 * free.milliseconds);
+  EXPECT_GT(hurried.error, 0.01);
+  EXPECT_EQ(make_plan(crowded(), {.max_ms = 2.0 * free.milliseconds}).milliseconds, free.milliseconds);
+  EXPECT_EQ(decision_about(make_plan(crowded(), {.max_ms = 1e-6}), "method").reason, "fastest");
+}
+
+// A mesh of millions is not worth its hierarchy of edges for one frame of few pixels.
+TEST(Plan, SharesSetUpAmongFrames) {
+  LightFacts facts = ordinary();
+  facts.casters[0].faces = 5'000'000;
+  facts.casters[0].edges = 7'500'000;
+  facts.receivers = 30'000;
+  const LightPlan one = make_plan(facts, {.max_error = 0.05}),
+                  many = make_plan(facts, {.max_error = 0.05, .frames = 10'000});
+  EXPECT_EQ(one.method, "reference");
+  const auto silhouette_ms = [](const LightPlan& plan) {
+    const std::vector<DecisionNumber>& numbers = decision_about(plan, "method").numbers;
+    return std::ranges::find(numbers, "silhouette_ms", &DecisionNumber::name)->value;
+  };
+  EXPECT_LT(silhouette_ms(many), 0.5 * silhouette_ms(one));
+}
+
 TEST(Plan, ChoosesTheCheapestOfWhatKeepsTheError) {
   for (const LightFacts& facts : {ordinary(), crowded()})
     for (const double error : {0.1, 0.01, 0.003}) {
       const LightPlan plan = make_plan(facts, {.max_error = error});
-      const auto& numbers = decision_about(plan, "method").numbers;
+      const std::vector<DecisionNumber> numbers = decision_about(plan, "method").numbers;
       const auto value = [&](const std::string& name) {
         return std::ranges::find(numbers, name, &DecisionNumber::name)->value;
       };
