@@ -72,6 +72,7 @@ nlohmann::json to_json(const LightFacts& facts) {
           {"edges", edges},
           {"sampled_receivers", facts.sampled.receivers},
           {"variance", facts.sampled.variance},
+          {"boundary", facts.sampled.boundary},
           {"lit", to_json(facts.sampled.lit)},
           {"penumbra", to_json(facts.sampled.penumbra)},
           {"hidden", to_json(facts.sampled.hidden)}};

@@ -1,5 +1,6 @@
 #include "render/plan/auto_method.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -87,16 +88,15 @@ class AutoMethod : public Method {
               .progress = input.progress});
   }
 
-  /// The scene without these casters. While a light moves they may be others in every frame: where they have been often, all
-  /// casters are kept.
+  /// The scene without these casters, or one with more that is there already: what is made once is not made again. While a
+  /// light moves they may be others in every frame: where they have been often, all casters are kept.
   ReducedScene& without(const LightFacts& facts, const std::vector<char>& left_out) {
     constexpr std::size_t kMost = 8;
-    const auto known = reduced_.find(left_out);
-    if (known != reduced_.end()) return *known->second;
+    if (const auto same = reduced_.find(left_out); same != reduced_.end()) return *same->second;
+    for (const auto& [fewer, reduced] : reduced_)
+      if (std::ranges::equal(fewer, left_out, [](char a, char b) { return a <= b; })) return *reduced;
     const std::vector<char> used = reduced_.size() < kMost ? left_out : std::vector<char>(left_out.size(), 0);
-    std::unique_ptr<ReducedScene>& made = reduced_[used];
-    if (!made) made = std::make_unique<ReducedScene>(objects_, facts, used);
-    return *made;
+    return *(reduced_[used] = std::make_unique<ReducedScene>(objects_, facts, used));
   }
 
   /// Kept while the receivers stay the same.

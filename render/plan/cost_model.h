@@ -1,7 +1,7 @@
 // What methods cost and how far they are off, by what was measured of a light.
 //
 // Times are those of the machine on which the constants of cost_model_fit.h were measured; what is compared are times of
-// one machine, so a plan needs no other. `./run plan-model` measures and fits again; docs/plan.md has the residuals.
+// one machine, so a plan needs no other. The terms are those of tests/bench/plan_model.py, which fits them. `./run plan-model` measures and fits again; docs/plan.md has the residuals.
 #pragma once
 
 #include "penumbra/render/plan/plan.h"
@@ -26,8 +26,7 @@ Cost cost_of_reference(const LightFacts& facts, int samples);
 
 /// RMSE of V over the penumbra.
 double error_of_silhouette(const LightFacts& facts);
-/// Of so many stratified rays: each boundary across the light leaves samples in doubt only in the strata that it
-/// crosses, e² = a nᵇ / N^(3/2) for n edges, and strata are never worse than rays by chance, e² ≤ O (1 - O) / N.
+/// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts).
 double error_of_rays(const LightFacts& facts, int samples);
 /// The least square number of rays for that error, 4 to 65,536.
 int rays_for(const LightFacts& facts, double error);

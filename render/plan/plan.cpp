@@ -128,8 +128,9 @@ Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, con
   const SampledFacts& sampled = facts.sampled;
   out.numbers.insert(out.numbers.end(), {{"penumbra_share", sampled.penumbra.share},
                                          {"edges_in_penumbra", sampled.penumbra.edges},
-                                         {"edges", sampled.mean(&SampledPart::edges)},
-                                         {"boxes", sampled.mean(&SampledPart::boxes)}});
+
+                                         {"edges_where_hidden", sampled.hidden.edges},
+                                         {"boxes", sampled.penumbra.boxes}});
   return out;
 }
 

@@ -15,12 +15,13 @@ namespace {
 
 // Accuracy of the estimates against time: all in all about half a millisecond.
 constexpr std::size_t kReceivers = 512;  ///< looked at by rays
-constexpr int kRays = 16;                ///< for each of them
+constexpr int kRays = 16;                ///< for each of them, twice
 constexpr std::size_t kSeeing = 24;      ///< of each part, so many look at edges and faces
 constexpr std::size_t kEdges = 1024, kFaces = 1024;
-// A penumbra that fewer of the receivers than this lie in is taken for a usual one: O evenly spread over 0 to 1.
+// A penumbra that fewer of the receivers than this lie in is taken for a usual one: O evenly spread over 0 to 1, and the
+// boundaries of a few edges.
 constexpr std::size_t kFew = 8;
-constexpr double kUsualVariance = 1.0 / 6.0;
+constexpr double kUsualVariance = 1.0 / 6.0, kUsualBoundary = 0.3;
 
 /// Indices below `count`, the first `wanted` of a sequence that fills the range evenly: multiples of the golden ratio.
 template <class Visit>
@@ -55,27 +56,49 @@ double boxes_before(const FaceSample& faces, const RayScene& rays, const Circula
   return faces.boxes_on(ray.from.point, ray.way, ray.endless);
 }
 
+/// What 2 · 16 rays tell of some receivers.
+struct Seen {
+  std::vector<std::uint32_t> lit, partly, hidden;
+  double variance = kUsualVariance, boundary = kUsualBoundary;
+};
+
+/// Two independent estimates of each receiver's O: their product has no bias, and their difference is their error.
+Seen see(const RayScene& rays, const LightShape& light, const Receivers& receivers,
+         std::span<const std::uint32_t> some) {
+  const auto estimate = [&](std::uint64_t seed) {
+    return trace_reference(rays, light, receivers, some, {.samples = kRays, .seed = seed}, true).unoccluded;
+  };
+  const std::vector<float> first = estimate(1), second = estimate(2);
+  Seen out;
+  double variance = 0.0, error2 = 0.0;
+  for (std::size_t i = 0; i < some.size(); ++i) {
+    const double a = first[i], b = second[i];
+    (a + b <= 0.0 ? out.hidden : a + b < 2.0 ? out.partly : out.lit).push_back(some[i]);
+    variance += 0.5 * (a * (1.0 - b) + b * (1.0 - a));
+    error2 += 0.5 * (a - b) * (a - b);
+  }
+  if (out.partly.size() < kFew) return out;
+  const auto count = static_cast<double>(out.partly.size());
+  out.variance = variance / count;
+  // 1 / e² = n / v + n^(3/2) / b, for the e of n rays that was seen.
+  constexpr double kLeast = 1e-3;  // of a difference that no ray has seen, so that no error is taken for none
+  const double rest = 1.0 / std::max(error2 / count, 1e-6) - kRays / std::max(out.variance, 1e-6);
+  out.boundary = std::max(kLeast, kRays * std::sqrt(double{kRays}) / std::max(rest, 1e-3));
+  return out;
+}
+
 }  // namespace
 
 SampledFacts sample_light(const Scene& objects, const RayScene& rays, const CircularLight& circle,
                           const LightShape& light, const Receivers& receivers,
                           std::span<const CasterFacts> casters,
                           const std::function<bool(std::uint32_t)>& is_dark) {
-  SampledFacts out{.variance = kUsualVariance};
   const std::vector<std::uint32_t> some = some_receivers(receivers, is_dark);
-  out.receivers = some.size();
+  SampledFacts out{.receivers = some.size(), .variance = kUsualVariance, .boundary = kUsualBoundary};
   if (some.empty()) return out;
-  // By rays: what each sees.
-  const std::vector<float> seen =
-      trace_reference(rays, light, receivers, some, {.samples = kRays}, true).unoccluded;
-  std::vector<std::uint32_t> lit, partly, hidden;
-  double variance = 0.0;
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    const double o = seen[i];
-    (o <= 0.0 ? hidden : o < 1.0 ? partly : lit).push_back(some[i]);
-    variance += o * (1.0 - o) * kRays / (kRays - 1.0);
-  }
-  if (partly.size() >= kFew) out.variance = variance / static_cast<double>(partly.size());
+  const Seen seen = see(rays, light, receivers, some);
+  out.variance = seen.variance;
+  out.boundary = seen.boundary;
   // By edges and faces: how much lies before them.
   const EdgeSample edges(objects, circle, casters, kEdges);
   const FaceSample faces(objects, casters, kFaces);
@@ -90,9 +113,9 @@ SampledFacts sample_light(const Scene& objects, const RayScene& rays, const Circ
     }
     return sums;
   };
-  out.lit = look(lit);
-  out.penumbra = look(partly);
-  out.hidden = look(hidden);
+  out.lit = look(seen.lit);
+  out.penumbra = look(seen.partly);
+  out.hidden = look(seen.hidden);
   return out;
 }
 

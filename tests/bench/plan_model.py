@@ -1,6 +1,7 @@
 """The planner's model of times and errors: measures rows, fits constants to them, says how far the fit is off.
 
   plan_model.py rows PENUMBRA ROWS.json [CASE...]   measures all cases or those named, and replaces their rows
+  plan_model.py facts PENUMBRA ROWS.json             asks the planner again, and keeps the times
   plan_model.py fit ROWS.json HEADER DOCUMENT        writes the constants, and how far they are off into the document
   plan_model.py example PENUMBRA DOCUMENT            writes what `penumbra plan` says of the document's scene into it
 
@@ -26,7 +27,8 @@ SCENES = """cube-medium sphere-medium torus-large boxes-large boxes-sun foliage-
 # Triangles strewn by chance: how many, their size, the light's radius.
 SOUPS = [(200, .05, .5), (500, .05, .5), (2000, .05, .2), (2000, .05, 1), (5000, .02, .5), (20000, .02, .3),
          (20000, .2, .5), (20000, .02, 1.5), (6000, .1, 3), (20000, .1, 1)]
-RAYS = {"reference": 16, "rays": 144}
+SETTINGS = {"silhouette": ("silhouette", 0), "reference-16": ("reference", 16), "rays-16": ("rays", 16),
+            "rays-144": ("rays", 144)}
 SIZE = ["--size", "320x240"]
 
 
@@ -83,86 +85,120 @@ def frame_and_first(penumbra, scene, words, output):
     return 500 * (processor_seconds(command + ["--warm-up", str(more)]) - first) / more, 500 * first
 
 
+def facts_of(penumbra, scene):
+    command = [penumbra, "plan", str(scene), *SIZE, "--json"]
+    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)["lights"][0]["facts"]
+
+
 def measure(penumbra, scene, folder):
-    plan = json.loads(subprocess.run([penumbra, "plan", str(scene), *SIZE, "--json"], check=True, capture_output=True).stdout)
-    row = {"facts": plan["lights"][0]["facts"], "methods": {}}
+    row = {"facts": facts_of(penumbra, scene), "measured": {}}
     none_frame, none_first = frame_and_first(penumbra, scene, ["--method", "none"], folder / "none.exr")
-    for method in ["silhouette", "reference", "rays"]:
-        words = ["--method", method] + (["--samples", str(RAYS[method])] if method in RAYS else [])
-        frame, first = frame_and_first(penumbra, scene, words, folder / f"{method}.exr")
-        row["methods"][method] = {"frame_ms": round(frame - none_frame, 2),
-                                  "setup_ms": round(first - none_first - (frame - none_frame), 2)}
-    for method in RAYS:
-        command = [penumbra, "compare", str(folder / f"{method}.exr"), str(folder / "silhouette.exr"), "--json"]
-        figures = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-        row["methods"][method] |= {"samples": RAYS[method], "rmse": round(figures["penumbra"]["rmse"], 5)}
+    for name, (method, samples) in SETTINGS.items():
+        words = ["--method", method] + (["--samples", str(samples)] if samples else [])
+        frame, first = frame_and_first(penumbra, scene, words, folder / f"{name}.exr")
+        row["measured"][name] = {"frame_ms": round(frame - none_frame, 2),
+                                 "setup_ms": round(first - none_first - (frame - none_frame), 2)}
+        if samples:
+            command = [penumbra, "compare", str(folder / f"{name}.exr"), str(folder / "silhouette.exr"), "--json"]
+            figures = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+            row["measured"][name]["rmse"] = round(figures["penumbra"]["rmse"], 5)
     return row
+
+
+def write_cases(folder):
+    cases = dict(write_soup(folder, *soup) for soup in SOUPS)
+    cases |= {name: TOP / f"data/scenes/{name}.json" for name in SCENES}
+    return cases | dict([write_fan(folder, 4000, .5), write_fan(folder, 300, 1)])
+
+
+def write_rows(path, rows):
+    path.write_text("{\n" + ",\n".join(f"{json.dumps(name)}: {json.dumps(row)}" for name, row in sorted(rows.items())) + "\n}\n")
 
 
 def measure_rows(penumbra, path, names):
     rows = json.loads(path.read_text()) if path.exists() else {}
     with tempfile.TemporaryDirectory() as temporary:
-        folder = Path(temporary)
-        cases = dict(write_soup(folder, *soup) for soup in SOUPS)
-        cases |= {name: TOP / f"data/scenes/{name}.json" for name in SCENES}
-        cases |= dict([write_fan(folder, 4000, .5), write_fan(folder, 300, 1)])
+        cases = write_cases(Path(temporary))
         for name in names or cases:
-            rows[name] = measure(penumbra, cases[name], folder)
-            path.write_text(json.dumps(dict(sorted(rows.items())), indent=1) + "\n")
-            print(name, json.dumps(rows[name]["methods"]), flush=True)
+            rows[name] = measure(penumbra, cases[name], Path(temporary))
+            write_rows(path, rows)
+            print(name, json.dumps(rows[name]["measured"]), flush=True)
 
 
-def least_squares(features, values):
-    """Constants of at least 0 with the least sum of squared relative errors: by one after the other, over and over."""
-    scaled = [[f / v for f in row] for row, v in zip(features, values)]
-    constants = [0.0] * len(features[0])
-    for _ in range(20000):
-        for k in range(len(constants)):
-            norm = sum(row[k] ** 2 for row in scaled)
-            if norm == 0:
-                continue
-            slope = sum(row[k] * (1 - sum(c * f for c, f in zip(constants, row))) for row in scaled)
-            constants[k] = max(0.0, constants[k] + slope / norm)
+def ask_again(penumbra, path):
+    rows = json.loads(path.read_text())
+    with tempfile.TemporaryDirectory() as temporary:
+        cases = write_cases(Path(temporary))
+        for name, row in rows.items():
+            row["facts"] = facts_of(penumbra, cases[name])
+    write_rows(path, rows)
+
+
+def total(constants, features):
+    return sum(c * f for c, f in zip(constants, features))
+
+
+def fit_constants(features, values):
+    """Constants of at least 0 for which the sum of squared logarithms of model / value is least: steps of single constants,
+    from where each alone would explain an equal part."""
+    count = len(features[0])
+    loss = lambda constants: sum(math.log(max(total(constants, row), 1e-9) / v) ** 2 for row, v in zip(features, values))
+    scale = [sum(values) / max(1e-9, sum(row[k] for row in features)) for k in range(count)]
+    constants = [s / count for s in scale]
+    best = loss(constants)
+    for steps in [(0, .25, .5, 2, 4), (.8, 1.25), (.95, 1.05), (0, .99, 1.01)] * 3:
+        improved = True
+        while improved:
+            improved = False
+            for k, step in ((k, step) for k in range(count) for step in steps):
+                tried = list(constants)
+                tried[k] = step * (constants[k] or .01 * scale[k])
+                if (now := loss(tried)) < best * (1 - 1e-6):
+                    constants, best, improved = tried, now, True
     return constants
 
 
-def numbers(row):
-    facts = row["facts"]
-    reached = facts["receivers"] - facts["dark_receivers"]
+def mean(facts, number):
+    """Over the parts of the receivers, of a number of a part."""
+    return sum(facts[part]["share"] * number(facts[part]) for part in ("lit", "penumbra", "hidden"))
+
+
+def reached(facts):
+    return facts["receivers"] - facts["dark_receivers"]
+
+
+def silhouette_features(facts):
+    return [reached(facts), facts["edges"], reached(facts) * mean(facts, lambda p: p["merged_edges"]),
+            reached(facts) * mean(facts, lambda p: math.sqrt(p["edges"])),
+            reached(facts) * mean(facts, lambda p: p["boxes"])]
+
+
+def ray_features(facts, part):
+    return [1, math.log2(1 + facts["faces"]), math.sqrt(part["boxes"]), math.sqrt(part["edges"])]
+
+
+def reference_features(facts, samples):
     parts = [facts[part] for part in ("lit", "penumbra", "hidden")]
-    mean = {key: sum(part["share"] * part[key] for part in parts) for key in ("edges", "merged_edges", "boxes")}
-    # Receivers that certificates leave open: the penumbra, and others before which edges lie.
-    mean["open"] = reached * (facts["penumbra"]["share"] + sum(
-        facts[part]["share"] * min(1, facts[part]["edges"]) for part in ("lit", "hidden")))
-    return facts, reached, mean
+    sums = [sum(part["share"] * f for part, f in zip(parts, fs)) for fs in zip(*(ray_features(facts, p) for p in parts))]
+    return [samples * reached(facts) * f for f in sums]
 
 
-def silhouette_features(row):
-    facts, reached, mean = numbers(row)
-    return [reached, facts["edges"], mean["open"], reached * mean["edges"], reached * mean["merged_edges"]]
+def open_ns(facts, samples, ray, part):
+    """Of rays at the receivers of a part that may be left open by certificates."""
+    edges = 1 if part == "penumbra" else min(1, facts[part]["edges"])
+    return reached(facts) * facts[part]["share"] * edges * samples * total(ray, ray_features(facts, facts[part]))
 
 
-def reference_features(row):
-    facts, reached, mean = numbers(row)
-    n = row["methods"]["reference"]["samples"] * reached
-    return [n, n * math.log2(1 + facts["faces"]), n * mean["boxes"]]
+def rays_features(facts, samples, ray):
+    return [reached(facts), facts["edges"], reached(facts) * mean(facts, lambda p: math.sqrt(p["edges"])),
+            reached(facts) * mean(facts, lambda p: p["edges"]), reached(facts) * mean(facts, lambda p: p["boxes"]),
+            open_ns(facts, samples, ray, "penumbra"),
+            open_ns(facts, samples, ray, "hidden") + open_ns(facts, samples, ray, "lit")]
 
 
-def ray_ns(row, ray):
-    facts = row["facts"]
-    return ray[0] + ray[1] * math.log2(1 + facts["faces"]) + ray[2] * facts["penumbra"]["boxes"]
-
-
-def certify_features(row):
-    facts, reached, mean = numbers(row)
-    return [reached, facts["edges"], reached * mean["edges"]]
-
-
-def stratified(row, samples, strata, power):
-    facts = row["facts"]
-    chance = facts["variance"] / samples
-    by_strata = strata * max(1.0, facts["penumbra"]["edges"]) ** power / samples ** 1.5
-    return math.sqrt(chance * by_strata / (chance + by_strata))
+def rays_error(facts, samples):
+    chance, boundary = facts["variance"] / samples, facts["boundary"] / samples ** 1.5
+    return math.sqrt(chance * boundary / (chance + boundary))
 
 
 def replace_block(document, begin, text):
@@ -182,63 +218,85 @@ def write_example(penumbra, document):
 
 
 def fit(path, header, document):
-    rows = {name: row for name, row in json.loads(path.read_text()).items() if row["facts"]["penumbra"]["share"] > 0}
-    frames = lambda method: [max(1.0, row["methods"][method]["frame_ms"]) * 1e6 for row in rows.values()]
-    silhouette = least_squares([silhouette_features(row) for row in rows.values()], frames("silhouette"))
-    ray = least_squares([reference_features(row) for row in rows.values()], frames("reference"))
-    # Rays cost the same each whichever method sends them.
-    left, kept = [], []
-    for row, time in zip(rows.values(), frames("rays")):
-        rest = time - numbers(row)[2]["open"] * row["methods"]["rays"]["samples"] * ray_ns(row, ray)
-        left.append(max(rest, .1 * time))
-        kept.append(certify_features(row))
-    certify = least_squares(kept, left)
-    setups = [(row["facts"]["edges"], row["methods"]["silhouette"]["setup_ms"] * 1e6) for row in rows.values()]
+    rows = json.loads(path.read_text())
+    facts = [row["facts"] for row in rows.values()]
+    ns = lambda name: [max(1.0, row["measured"][name]["frame_ms"]) * 1e6 for row in rows.values()]
+    silhouette = fit_constants([silhouette_features(f) for f in facts], ns("silhouette"))
+    ray = fit_constants([reference_features(f, 16) for f in facts], ns("reference-16"))
+    rays = fit_constants([rays_features(f, n, ray) for n in (16, 144) for f in facts], ns("rays-16") + ns("rays-144"))
+    setups = [(f["edges"], row["measured"]["silhouette"]["setup_ms"] * 1e6) for f, row in zip(facts, rows.values())]
     setups = [(edges, time) for edges, time in setups if time > 1e7]
-    hierarchy = least_squares([[edges] for edges, _ in setups], [time for _, time in setups])[0] if setups else 0.0
-    errors = [(row, m["samples"], m["rmse"]) for row in rows.values() for m in row["methods"].values() if "rmse" in m]
-    distance = lambda s, p: sum(math.log(stratified(row, n, s, p) / e) ** 2 for row, n, e in errors if e > 0)
-    strata, power = min(((.01 * s, .02 * p) for s in range(2, 60) for p in range(0, 50)), key=lambda c: distance(*c))
-    write_header(header, silhouette, certify, ray, hierarchy, strata, power)
-    residuals = residuals_of(rows, silhouette, certify, ray, strata, power)
+    hierarchy = fit_constants([[edges] for edges, _ in setups], [time for _, time in setups])[0]
+    write_header(header, silhouette, ray, rays, hierarchy)
+    model = {"silhouette": lambda f: total(silhouette, silhouette_features(f)),
+             "reference-16": lambda f: total(ray, reference_features(f, 16)),
+             "rays-16": lambda f: total(rays, rays_features(f, 16, ray)),
+             "rays-144": lambda f: total(rays, rays_features(f, 144, ray))}
+    residuals = residuals_of(rows, model) + "\n" + regrets(rows, silhouette, ray, rays, hierarchy)
     print(residuals)
     replace_block(document, "<!-- residuals -->", residuals)
 
 
-def write_header(path, silhouette, certify, ray, hierarchy, strata, power):
-    names = ["Receiver", "BandEdge", "Open", "Edge", "Merged"]
-    lines = [f"inline constexpr double kSilhouette{name} = {value:.4g};" for name, value in zip(names, silhouette)]
-    lines += [f"inline constexpr double kCertify{name} = {value:.4g};"
-              for name, value in zip(["Receiver", "BandEdge", "Edge"], certify)]
-    lines += [f"inline constexpr double kRay{name} = {value:.4g};" for name, value in zip(["", "LogFaces", "Box"], ray)]
-    lines += [f"inline constexpr double kHierarchyEdge = {hierarchy:.4g};", "// RMSE.",
-              f"inline constexpr double kStrata = {strata:.4g};", f"inline constexpr double kStrataPower = {power:.4g};"]
+def write_header(path, silhouette, ray, rays, hierarchy):
+    names = [("Silhouette", ["Receiver", "BandEdge", "Merged", "RootOfEdges", "Box"], silhouette),
+             ("Ray", ["", "LogFaces", "RootOfBoxes", "RootOfEdges"], ray),
+             ("Rays", ["Receiver", "BandEdge", "RootOfEdges", "Edge", "Box", "OpenPenumbra", "OpenRest"], rays),
+             ("Hierarchy", ["Edge"], [hierarchy])]
+    lines = [f"inline constexpr double k{group}{name} = {value:.4g};"
+             for group, members, values in names for name, value in zip(members, values)]
     path.write_text("// Constants of the planner's model. Made by `./run plan-model` from data/plan/rows.json: do not edit.\n"
-                    "#pragma once\n\nnamespace penumbra::detail::fit {\n\n// Nanoseconds on two cores.\n"
+                    "#pragma once\n\nnamespace penumbra::detail::fit {\n\n// Nanoseconds on two cores; kRaysOpen...: shares.\n"
                     + "\n".join(lines) + "\n\n}  // namespace penumbra::detail::fit\n")
 
 
-def residuals_of(rows, silhouette, certify, ray, strata, power):
-    lines = ["Milliseconds of processor time at 320×240, halved for two cores; RMSE of 16 and of 144 rays.\n",
-             "| scene | edges | `silhouette` | model | `rays`, 144 | model | `reference`, 16 | model | RMSE, 16 | model | RMSE, 144 "
-             "| model |", "|---|---|---|---|---|---|---|---|---|---|---|---|"]
-    off = {"`silhouette`": [], "`rays`": [], "`reference`": [], "RMSE": []}
+def rays_for(facts, error):
+    return next(n * n for n in range(2, 257) if n == 256 or rays_error(facts, n * n) <= error)
+
+
+def regrets(rows, silhouette, ray, rays, hierarchy):
+    """What the model's choice costs beside the cheapest method, by measured times. Times of rays are lines through two numbers of
+    rays, or through zero."""
+    lines = ["", "What the choice costs, by measured times and set-up for one frame, beside the cheapest of the three:", "",
+             "| error | scenes by `silhouette`, `rays`, `reference` | at most | the worst scenes | beside `silhouette` at most |",
+             "|---|---|---|---|---|"]
+    for error in (.05, .02, .01, .005, .002):
+        chosen, worst, over = {"silhouette": 0, "rays": 0, "reference": 0}, [], []
+        for name, row in rows.items():
+            facts, m = row["facts"], row["measured"]
+            n, setup = rays_for(facts, error), facts["edges"] * hierarchy
+            model = {"silhouette": total(silhouette, silhouette_features(facts)) + setup,
+                     "rays": total(rays, rays_features(facts, n, ray)) + setup,
+                     "reference": total(ray, reference_features(facts, n))}
+            choice = min(model, key=model.get)
+            chosen[choice] += 1
+            few, many = m["rays-16"]["frame_ms"], m["rays-144"]["frame_ms"]
+            once = max(0, m["silhouette"]["setup_ms"])
+            true = {"silhouette": m["silhouette"]["frame_ms"] + once,
+                    "rays": max(few * n / 144, few + (many - few) * (n - 16) / 128) + once,
+                    "reference": m["reference-16"]["frame_ms"] * n / 16}
+            worst.append((true[choice] / min(true.values()), name))
+            over.append(true[choice] / true["silhouette"])
+        worst.sort(reverse=True)
+        lines.append(f"| {error} | {', '.join(str(c) for c in chosen.values())} | {worst[0][0]:.2f} | "
+                     + ", ".join(f"{name} {r:.2f}" for r, name in worst[:3] if r > 1) + f" | {max(over):.2f} |")
+    return "\n".join(lines)
+
+
+def residuals_of(rows, model):
+    lines = ["Milliseconds of processor time at 320×240, halved for two cores, and RMSE; each beside what the model says.\n",
+             "| scene | edges | `silhouette` | | `reference`, 16 | | `rays`, 16 | | `rays`, 144 | | RMSE, 16 | | RMSE, 144 | |",
+             "|" + "---|" * 14]
+    off = {"time of " + name: [] for name in model} | {"RMSE of 16 rays": [], "RMSE of 144 rays": []}
     for name, row in rows.items():
-        cost = lambda constants, features: sum(c * f for c, f in zip(constants, features)) * 1e-6
-        sent = numbers(row)[2]["open"] * row["methods"]["rays"]["samples"] * ray_ns(row, ray) * 1e-6
-        model = {"silhouette": cost(silhouette, silhouette_features(row)),
-                 "rays": cost(certify, certify_features(row)) + sent,
-                 "reference": cost(ray, reference_features(row))}
         line = f"| {name} | {row['facts']['penumbra']['edges']:.1f} "
-        for method, value in model.items():
-            measured = row["methods"][method]["frame_ms"]
+        for setting, predict in model.items():
+            measured, value = row["measured"][setting]["frame_ms"], predict(row["facts"]) * 1e-6
             line += f"| {measured:.1f} | {value:.1f} "
-            off[f"`{method}`"].append(abs(math.log(value / max(1.0, measured))))
-        for method in RAYS:
-            m = row["methods"][method]
-            value = stratified(row, m["samples"], strata, power)
-            line += f"| {m['rmse']:.4f} | {value:.4f} "
-            off["RMSE"].append(abs(math.log(value / m["rmse"])) if m["rmse"] > 0 else 0)
+            off["time of " + setting].append(abs(math.log(value / max(1.0, measured))))
+        for samples, setting in ((16, "reference-16"), (144, "rays-144")):
+            measured, value = row["measured"][setting]["rmse"], rays_error(row["facts"], samples)
+            line += f"| {measured:.4f} | {value:.4f} "
+            off[f"RMSE of {samples} rays"].append(abs(math.log(value / measured)))
         lines.append(line + "|")
     lines += ["", "The model is off by a factor of", "", "| | median | nine of ten | at most |", "|---|---|---|---|"]
     for what, values in off.items():
@@ -252,6 +310,8 @@ if __name__ == "__main__":
     command, paths = sys.argv[1], sys.argv[2:]
     if command == "rows":
         measure_rows(paths[0], Path(paths[1]), paths[2:])
+    elif command == "facts":
+        ask_again(paths[0], Path(paths[1]))
     elif command == "fit":
         fit(Path(paths[0]), Path(paths[1]), Path(paths[2]))
     else:

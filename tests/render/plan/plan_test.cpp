@@ -21,7 +21,8 @@ LightFacts ordinary() {
                       .lit = {.share = 0.75},
                       .penumbra = {.share = 0.15, .edges = 2.0, .merged_edges = 2.0, .boxes = 4.0},
                       .hidden = {.share = 0.1, .boxes = 4.0},
-                      .variance = 0.12}};
+                      .variance = 0.12,
+                      .boundary = 0.2}};
 }
 
 LightFacts crowded() {
@@ -29,6 +30,7 @@ LightFacts crowded() {
   facts.casters[0].faces = 60'000;
   facts.casters[0].edges = 180'000;
   facts.sampled.lit.share = 0.2;
+  facts.sampled.boundary = 1.0;
   facts.sampled.penumbra = {.share = 0.7, .edges = 6'000.0, .merged_edges = 6'000.0, .boxes = 40.0};
   return facts;
 }
