@@ -48,6 +48,7 @@ void add_option_of_auto(CLI::App& command, const std::string& name, T& value) {
 void require_allowed(const PlanRequest& request) {
   option_named("max-error").require_allowed(request.max_error);
   option_named("max-ms").require_allowed(request.max_ms);
+  option_named("hard-below").require_allowed(request.hard_below);
   option_named("plan-frames").require_allowed(static_cast<std::uint64_t>(std::max(0, request.frames)));
 }
 
@@ -55,6 +56,7 @@ nlohmann::json to_json(const SampledPart& part) {
   return {{"share", part.share},
           {"edges", part.edges},
           {"merged_edges", part.merged_edges},
+          {"edge_length", part.edge_length},
           {"boxes", part.boxes}};
 }
 
@@ -153,6 +155,7 @@ void add_plan_command(CLI::App& app) {
   add_scene_input(command, arguments->scene);
   add_option_of_auto(command, "max-error", arguments->request.max_error);
   add_option_of_auto(command, "max-ms", arguments->request.max_ms);
+  add_option_of_auto(command, "hard-below", arguments->request.hard_below);
   add_option_of_auto(command, "plan-frames", arguments->request.frames);
   command.add_option("--size", arguments->size, "Pixels of the picture, WIDTHxHEIGHT")
       ->capture_default_str()

@@ -41,6 +41,7 @@ class ReducedScene {
 PlanRequest request_of(const MethodInput& input) {
   return {.max_error = real_of(input.options, "max-error"),
           .max_ms = real_of(input.options, "max-ms"),
+          .hard_below = real_of(input.options, "hard-below"),
           .with_unoccluded = input.with_unoccluded,
           .frames = static_cast<int>(integer_of(input.options, "plan-frames"))};
 }
@@ -51,8 +52,8 @@ class AutoMethod : public Method {
 
   MethodResult run(const MethodInput& input) override {
     StageClock clock;
-    const LightFacts facts = measure_light(objects_, input.rays, input.light, input.receivers,
-                                           boxes_of(input), input.with_unoccluded);
+    const LightFacts facts =
+        measure_light(objects_, input.rays, input.light, input.receivers, boxes_of(input), request_of(input));
     LightPlan plan = make_plan(facts, request_of(input));
     clock.finish("plan");
     MethodResult out =
@@ -130,6 +131,12 @@ std::vector<OptionSchema> auto_options() {
                    "it, the most "
                    "accurate method that can keep the time; 0: no limit",
            .steps = std::vector<OptionValue>{}},
+          {.name = "hard-below",
+           .domain = RealRange{0.0, 10.0},
+           .usual = PlanRequest{}.hard_below,
+           .unit = "pixels",
+           .help = "A penumbra that is nowhere as wide is drawn as a hard shadow; 0: none is",
+           .steps = std::vector<OptionValue>{}},
           {.name = "plan-frames",
            .domain = IntegerRange{1, 1'000'000},
            .usual = static_cast<std::uint64_t>(PlanRequest{}.frames),
@@ -155,7 +162,7 @@ LightPlan plan_light(const Scene& objects, const RayScene& rays, const LightShap
                      const Receivers& receivers, const PlanRequest& request) {
   std::optional<ReceiverBoxes> boxes;
   rays.arena().execute([&] { boxes.emplace(receivers); });
-  return make_plan(measure_light(objects, rays, light, receivers, *boxes, request.with_unoccluded), request);
+  return make_plan(measure_light(objects, rays, light, receivers, *boxes, request), request);
 }
 
 }  // namespace penumbra

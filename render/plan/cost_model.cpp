@@ -37,6 +37,9 @@ double merged_edges_of(const SampledPart& part) {
 double root_of_edges_of(const SampledPart& part) {
   return std::sqrt(part.edges);
 }
+double edge_length_of(const SampledPart& part) {
+  return part.edge_length;
+}
 double boxes_of(const SampledPart& part) {
   return part.boxes;
 }
@@ -61,9 +64,10 @@ Cost cost_of_silhouette(const LightFacts& facts) {
   const double edges = totals_of_reaching(facts).edges;
   const SampledFacts& s = facts.sampled;
   return in_milliseconds(
-      reached(facts) * (fit::kSilhouetteReceiver + fit::kSilhouetteMerged * mean(s, merged_edges_of) +
-                        fit::kSilhouetteRootOfEdges * mean(s, root_of_edges_of) +
-                        fit::kSilhouetteBox * mean(s, boxes_of)) +
+      reached(facts) *
+              (fit::kSilhouetteReceiver + fit::kSilhouetteMerged * mean(s, merged_edges_of) +
+               fit::kSilhouetteRootOfEdges * mean(s, root_of_edges_of) +
+               fit::kSilhouetteLength * mean(s, edge_length_of) + fit::kSilhouetteBox * mean(s, boxes_of)) +
           fit::kSilhouetteBandEdge * edges,
       fit::kHierarchyEdge * edges);
 }

@@ -4,11 +4,12 @@
 namespace penumbra::detail::fit {
 
 // Nanoseconds on two cores; kRaysOpen...: shares.
-inline constexpr double kSilhouetteReceiver = 20.96;
-inline constexpr double kSilhouetteBandEdge = 79.54;
-inline constexpr double kSilhouetteMerged = 47.48;
-inline constexpr double kSilhouetteRootOfEdges = 63.81;
-inline constexpr double kSilhouetteBox = 28.17;
+inline constexpr double kSilhouetteReceiver = 19.18;
+inline constexpr double kSilhouetteBandEdge = 97.41;
+inline constexpr double kSilhouetteMerged = 28.92;
+inline constexpr double kSilhouetteRootOfEdges = 39.27;
+inline constexpr double kSilhouetteLength = 38.89;
+inline constexpr double kSilhouetteBox = 22.68;
 inline constexpr double kRay = 4.417;
 inline constexpr double kRayLogFaces = 0.4403;
 inline constexpr double kRayRootOfBoxes = 5.522;

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include "render/plan/light_sides.h"
+#include "render/plan/penumbra_width.h"
 #include "render/plan/sampled_facts.h"
 
 namespace penumbra::detail {
@@ -61,10 +62,10 @@ class Reach {
 }  // namespace
 
 LightFacts measure_light(const Scene& objects, const RayScene& rays, const LightShape& light,
-                         const Receivers& receivers, const ReceiverBoxes& boxes, bool with_unoccluded) {
+                         const Receivers& receivers, const ReceiverBoxes& boxes, const PlanRequest& request) {
   const CircularLight circle = circle_around(light);
   // O has no horizon.
-  const Reach reach(circle, receivers, boxes, !with_unoccluded);
+  const Reach reach(circle, receivers, boxes, !request.with_unoccluded);
   LightFacts facts{.is_point = is_point(light),
                    .is_rectangle = std::holds_alternative<RectangleLight>(light),
                    .receivers = boxes.present()};
@@ -82,6 +83,10 @@ LightFacts measure_light(const Scene& objects, const RayScene& rays, const Light
       facts.casters[k].reach = reach.of_caster(objects.objects[facts.casters[k].object].mesh.bounds());
     });
   });
+  if (request.hard_below > 0.0)
+    facts.widest_penumbra = rays.arena().execute([&] {
+      return widest_penumbra(objects, circle, LightSides(circle), receivers, boxes, facts.casters);
+    });
   if (!facts.is_point)
     facts.sampled = sample_light(objects, rays, circle, light, receivers, facts.casters,
                                  [&](std::uint32_t index) { return reach.is_dark(index); });

@@ -12,6 +12,6 @@ namespace penumbra::detail {
 /// boxes, too. Cost: some hundred
 /// thousand operations, and for each caster a walk down the boxes of receivers. On the threads of `rays`.
 LightFacts measure_light(const Scene& objects, const RayScene& rays, const LightShape& light,
-                         const Receivers& receivers, const ReceiverBoxes& boxes, bool with_unoccluded);
+                         const Receivers& receivers, const ReceiverBoxes& boxes, const PlanRequest& request);
 
 }  // namespace penumbra::detail

@@ -187,6 +187,16 @@ LightPlan make_plan(const LightFacts& facts, const PlanRequest& request) {
                    .text = "a point has no penumbra; one ray a receiver is exact",
                    .is_certificate = true});
   }
+  if (facts.widest_penumbra < request.hard_below) {
+    run(plan, {"hard", {}, 0.0, 0.0});
+    return finish(
+        plan, LightPlan::Action::kMethod,
+        {.about = "method",
+         .choice = "hard",
+         .reason = "narrow-penumbra",
+         .text = "no penumbra is as wide as " + shown(request.hard_below) + " pixels on flat surfaces",
+         .numbers = {{"widest_penumbra_pixels", facts.widest_penumbra}}});
+  }
   const std::vector<Candidate> all = candidates(facts, request);
   const Choice choice = choose(all, request);
   run(plan, *choice.candidate);

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,9 @@ struct SampledPart {
   /// Their share of the receivers.
   double share = 0.0;
   /// Means of what lies before the light as one of these sees it: silhouette edges; the same where fine faces are merged;
+  /// the length of all these edges, light radii;
   /// boxes of faces that the ray to the light's center meets, up to the first face that it hits.
-  double edges = 0.0, merged_edges = 0.0, boxes = 0.0;
+  double edges = 0.0, merged_edges = 0.0, edge_length = 0.0, boxes = 0.0;
 };
 
 /// Of receivers chosen evenly among those that the light reaches, told apart by 32 rays each. Estimates, the same in every
@@ -61,6 +63,9 @@ struct LightFacts {
   /// Receivers that are present. Of these, those in groups of neighbors that lie behind the light's plane or face away from
   /// all of it: they see none of it. As many as there are where no receiver at all sees any of it.
   std::size_t receivers = 0, dark = 0;
+  /// The widest penumbra in distances between pixels, at most (penumbra_width.h); measured where PlanRequest::hard_below asks for
+  /// it, else infinite.
+  double widest_penumbra = std::numeric_limits<double>::infinity();
   /// The scene's objects that cast, in their order.
   std::vector<CasterFacts> casters{};
   SampledFacts sampled{};
@@ -72,6 +77,8 @@ struct PlanRequest {
   /// Milliseconds by the model; where the error cannot be kept in it, the most accurate method that can keep the time is
   /// chosen. 0: no limit.
   double max_ms = 0.0;
+  /// Pixels: a penumbra that is nowhere as wide is drawn as a hard shadow, whatever the error. 0: none is.
+  double hard_below = 0.0;
   /// O is wanted, too.
   bool with_unoccluded = false;
   /// The hierarchies that a method makes once are used for so many frames.

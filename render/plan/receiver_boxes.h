@@ -27,6 +27,14 @@ class ReceiverBoxes {
 
   std::size_t present() const { return levels_.empty() ? 0 : levels_.back().front().count; }
 
+  /// Groups of up to 64 receivers.
+  std::size_t leaves() const { return order_.size(); }
+  const ReceiverBox& leaf(std::size_t i) const { return levels_.front()[i]; }
+  template <class Visit>
+  void for_each_in_leaf(std::size_t i, const Visit& visit) const {
+    groups_.for_each(order_[i], visit);
+  }
+
   /// Goes down the tree. `passes(box)` tells whether all receivers of a box are done with; what does not pass is looked
   /// into. Calls `visit(index)` for each receiver that is left; true ends the walk. Returns whether one did.
   /// `receivers`: those of which this was made.

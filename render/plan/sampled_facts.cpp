@@ -109,6 +109,7 @@ SampledFacts sample_light(const Scene& objects, const RayScene& rays, const Circ
       const EdgeSample::Crossing crossing = edges.crossing(receivers.points[part[i]]);
       sums.edges += crossing.edges / static_cast<double>(count);
       sums.merged_edges += crossing.merged / static_cast<double>(count);
+      sums.edge_length += crossing.length / static_cast<double>(count);
       sums.boxes += boxes_before(faces, rays, circle, receivers, part[i]) / static_cast<double>(count);
     }
     return sums;

@@ -76,6 +76,7 @@ EdgeSample::Crossing EdgeSample::crossing(const Vec3& world) const {
     const double length = silhouette ? length_across(edge, x) : 0.0;
     if (!(length > 0.0)) continue;
     out.edges += each_stands_for_;
+    out.length += each_stands_for_ * length;
     out.merged += each_stands_for_ * (edge.may_merge ? std::min(1.0, length / kLong) : 1.0);
   }
   return out;

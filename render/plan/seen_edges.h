@@ -25,6 +25,8 @@ class EdgeSample {
     /// Edges between two faces of fine casters count by their length over a tenth of the light's radius, at most 1: short
     /// ones are merged (silhouette-tolerance).
     double merged = 0.0;
+    /// The sum of their lengths, light radii, at most two each.
+    double length = 0.0;
   };
   /// An estimate. Cost O(count).
   Crossing crossing(const Vec3& x) const;

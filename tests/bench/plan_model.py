@@ -170,7 +170,7 @@ def reached(facts):
 def silhouette_features(facts):
     return [reached(facts), facts["edges"], reached(facts) * mean(facts, lambda p: p["merged_edges"]),
             reached(facts) * mean(facts, lambda p: math.sqrt(p["edges"])),
-            reached(facts) * mean(facts, lambda p: p["boxes"])]
+            reached(facts) * mean(facts, lambda p: p["edge_length"]), reached(facts) * mean(facts, lambda p: p["boxes"])]
 
 
 def ray_features(facts, part):
@@ -238,7 +238,7 @@ def fit(path, header, document):
 
 
 def write_header(path, silhouette, ray, rays, hierarchy):
-    names = [("Silhouette", ["Receiver", "BandEdge", "Merged", "RootOfEdges", "Box"], silhouette),
+    names = [("Silhouette", ["Receiver", "BandEdge", "Merged", "RootOfEdges", "Length", "Box"], silhouette),
              ("Ray", ["", "LogFaces", "RootOfBoxes", "RootOfEdges"], ray),
              ("Rays", ["Receiver", "BandEdge", "RootOfEdges", "Edge", "Box", "OpenPenumbra", "OpenRest"], rays),
              ("Hierarchy", ["Edge"], [hierarchy])]

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "penumbra/render/visibility.h"
 #include "render/plan/auto_method.h"
@@ -104,6 +105,39 @@ TEST(AutoMethod, ACasterThatOnlyJustReachesIsKept) {
   }
   EXPECT_EQ(kept, 60u);
   EXPECT_GT(dropped, 40u);
+}
+
+// Pixels at which the hard shadow is wrong lie beside its boundary, where the penumbra is said to be narrower than a pixel.
+TEST(AutoMethod, ANarrowPenumbraLiesBesideTheHardShadow) {
+  std::size_t hard = 0, wrong = 0;
+  for (const double radius : {0.0005, 0.002, 0.1}) {
+    Scene scene = testing::data_scene("boxes-small");
+    scene.objects[1].mesh = make_box({0.2, 5.0, 0.1}, {0.8, 0.02, 0.6});
+    testing::light_of(scene).radius = radius;
+    const testing::View view(scene, 160, 120);
+    const Receivers receivers = view.surface.receivers();
+    const LightPlan plan =
+        plan_light(scene, view.rays, scene.lights.front().shape, receivers, {.hard_below = 0.5});
+    if (plan.method != "hard") continue;
+    ++hard;
+    const Casters casters(scene.objects);
+    const auto by = [&](const char* method) {
+      return visibility(casters, scene.lights.front().shape, receivers, {.method = method}).visibility;
+    };
+    const std::vector<float> sharp = by("hard"), soft = by("silhouette");
+    for (std::size_t i = 0; i < soft.size(); ++i) {
+      if (std::abs(soft[i] - sharp[i]) < 1e-3f) continue;
+      ++wrong;
+      const std::size_t w = 160, x = i % w, y = i / w;
+      bool beside = false;
+      for (std::size_t v = y - std::min<std::size_t>(y, 1); v <= std::min<std::size_t>(y + 1, 119); ++v)
+        for (std::size_t u = x - std::min<std::size_t>(x, 1); u <= std::min<std::size_t>(x + 1, w - 1); ++u)
+          beside = beside || sharp[v * w + u] != sharp[i];
+      EXPECT_TRUE(beside) << "radius " << radius << ", pixel " << x << ", " << y;
+    }
+  }
+  EXPECT_EQ(hard, 2u) << "the widest light has a penumbra of many pixels";
+  EXPECT_GT(wrong, 0u);
 }
 
 TEST(AutoMethod, RunsNothingWhereNoCasterReaches) {

@@ -13,16 +13,18 @@ namespace penumbra {
 namespace {
 
 LightFacts ordinary() {
-  return {.receivers = 300'000,
-          .dark = 20'000,
-          .casters = {{.object = 1, .name = "bunny.ply", .faces = 3'000, .edges = 4'500},
-                      {.object = 2, .name = "box.off", .faces = 12, .edges = 18}},
-          .sampled = {.receivers = 512,
-                      .lit = {.share = 0.75},
-                      .penumbra = {.share = 0.15, .edges = 2.0, .merged_edges = 2.0, .boxes = 4.0},
-                      .hidden = {.share = 0.1, .boxes = 4.0},
-                      .variance = 0.12,
-                      .boundary = 0.2}};
+  return {
+      .receivers = 300'000,
+      .dark = 20'000,
+      .casters = {{.object = 1, .name = "bunny.ply", .faces = 3'000, .edges = 4'500},
+                  {.object = 2, .name = "box.off", .faces = 12, .edges = 18}},
+      .sampled = {
+          .receivers = 512,
+          .lit = {.share = 0.75},
+          .penumbra = {.share = 0.15, .edges = 2.0, .merged_edges = 2.0, .edge_length = 3.0, .boxes = 4.0},
+          .hidden = {.share = 0.1, .boxes = 4.0},
+          .variance = 0.12,
+          .boundary = 0.2}};
 }
 
 LightFacts crowded() {
@@ -31,7 +33,8 @@ LightFacts crowded() {
   facts.casters[0].edges = 180'000;
   facts.sampled.lit.share = 0.2;
   facts.sampled.boundary = 1.0;
-  facts.sampled.penumbra = {.share = 0.7, .edges = 6'000.0, .merged_edges = 6'000.0, .boxes = 40.0};
+  facts.sampled.penumbra = {
+      .share = 0.7, .edges = 6'000.0, .merged_edges = 6'000.0, .edge_length = 6'000.0, .boxes = 40.0};
   return facts;
 }
 
@@ -74,6 +77,16 @@ TEST(Plan, APointHasAHardShadow) {
   LightFacts facts = ordinary();
   facts.is_point = true;
   EXPECT_EQ(make_plan(facts, {}).method, "hard");
+}
+
+TEST(Plan, ANarrowPenumbraIsHardWhereThatIsAskedFor) {
+  LightFacts facts = ordinary();
+  facts.widest_penumbra = 0.1;
+  EXPECT_EQ(make_plan(facts, {}).method, "silhouette");
+  const LightPlan plan = make_plan(facts, {.hard_below = 0.2});
+  EXPECT_EQ(plan.method, "hard");
+  EXPECT_EQ(decision_about(plan, "method").reason, "narrow-penumbra");
+  EXPECT_EQ(make_plan(facts, {.hard_below = 0.1}).method, "silhouette");
 }
 
 TEST(Plan, FewEdgesAreIntegratedAndManyAreLeftToRays) {
