@@ -13,7 +13,6 @@ namespace {
 struct PlacedGroup {
   std::array<double, 3> at{};
   std::uint32_t group = 0;
-  ReceiverBox box{};
 };
 
 ReceiverBox box_of(const Receivers& receivers, const ReceiverGroups& groups, std::size_t group) {
@@ -39,18 +38,21 @@ void ReceiverBox::add(const ReceiverBox& other) {
 ReceiverBoxes::ReceiverBoxes(const Receivers& receivers) : groups_(receivers) {
   std::vector<PlacedGroup> placed(groups_.count());
   if (placed.empty()) return;
+  std::vector<ReceiverBox> boxes(placed.size());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {
     placed[i].group = static_cast<std::uint32_t>(i);
-    placed[i].box = box_of(receivers, groups_, i);
-    if (placed[i].box.count == 0) return;
-    const Vec3 middle = placed[i].box.points.center();
+    boxes[i] = box_of(receivers, groups_, i);
+    if (boxes[i].count == 0) return;
+    const Vec3 middle = boxes[i].points.center();
     placed[i].at = {middle.x, middle.y, middle.z};
   });
   order_by_place<ByNumberThenAll>(placed.data(), placed.data() + placed.size(), kFanOut);
   std::vector<ReceiverBox> leaves;
+  leaves.reserve(placed.size());
+  order_.reserve(placed.size());
   for (const PlacedGroup& each : placed) {
     order_.push_back(each.group);
-    leaves.push_back(each.box);
+    leaves.push_back(boxes[each.group]);
   }
   levels_.push_back(std::move(leaves));
   while (levels_.back().size() > 1) {

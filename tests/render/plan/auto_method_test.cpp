@@ -140,6 +140,32 @@ TEST(AutoMethod, ANarrowPenumbraLiesBesideTheHardShadow) {
   EXPECT_GT(wrong, 0u);
 }
 
+// Of four hundred casters those in view and those whose shadow is are looked at, and no others.
+TEST(AutoMethod, LooksAtTheEdgesOfCastersThatReachAlone) {
+  Scene scene;
+  scene.objects.push_back({.name = "floor", .mesh = make_plane(100.0), .casts = false});
+  for (int i = 0; i < 400; ++i)
+    scene.objects.push_back(
+        {.name = "ball",
+         .mesh = make_icosphere({8.0 * (i % 20) - 76.0, 1.0, 8.0 * (i / 20) - 76.0}, 0.8, 1)});
+  scene.camera = {.eye = {-74, 6, -72}, .target = {-78, 0, -78}, .fov_y_degrees = 40.0};
+  scene.lights.push_back({.shape = DiskLight{{-70, 12, -70}, {0, -1, 0}, 0.5}});
+  const testing::View view(scene, 96, 72);
+  const Casters casters(scene.objects);
+  const auto by = [&](const char* method) {
+    return visibility(casters, scene.lights.front().shape, view.surface.receivers(), {.method = method});
+  };
+  const MethodResult planned = by("auto"), whole = by("silhouette");
+  const auto edges = [](const MethodResult& result) {
+    return testing::count_in(result.counts, "mesh_edges");
+  };
+  EXPECT_EQ(edges(whole), 400u * 120u);
+  EXPECT_LE(edges(planned), 10u * 120u);
+  EXPECT_GT(edges(planned), 0u);
+  for (std::size_t i = 0; i < whole.visibility.size(); ++i)
+    ASSERT_NEAR(planned.visibility[i], whole.visibility[i], 2e-5) << i;
+}
+
 TEST(AutoMethod, RunsNothingWhereNoCasterReaches) {
   Scene scene = testing::data_scene("cube-medium");
   testing::light_of(scene) = {{0, -3, 0}, {0, -1, 0}, 0.5};
