@@ -6,6 +6,7 @@
 
 #include "penumbra/render/visibility.h"
 #include "render/plan/auto_method.h"
+#include "render/plan/cost_model.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {
@@ -105,6 +106,51 @@ TEST(AutoMethod, ACasterThatOnlyJustReachesIsKept) {
   }
   EXPECT_EQ(kept, 60u);
   EXPECT_GT(dropped, 40u);
+}
+
+/// RMSE over the pixels that `truth` has in penumbra, and how many they are.
+std::pair<double, std::size_t> error_in_penumbra(const std::vector<float>& values,
+                                                 const std::vector<float>& truth) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!(truth[i] > 0.0f && truth[i] < 1.0f)) continue;
+    sum += (values[i] - truth[i]) * (values[i] - truth[i]);
+    ++count;
+  }
+  return {std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1))), count};
+}
+
+// As many rays as the plan would take, whether or not it takes them. The judge is the silhouette method, whose own error is some
+// hundredth of these.
+TEST(AutoMethod, TakesRaysEnoughForTheErrorInNineteenOfTwenty) {
+  std::size_t judged = 0, kept = 0, far_below = 0;
+  for (std::uint64_t seed = 100; seed < 160; ++seed) {
+    Scene scene = strewn(seed, 20);
+    if (seed % 2 == 0)
+      scene.objects.push_back(
+          {.name = "leaves", .mesh = make_random_triangles(scene.camera.target, 1.2, 0.3, 300, seed)});
+    const testing::View view(scene, 96, 72);
+    const Receivers receivers = view.surface.receivers();
+    const LightShape& light = scene.lights.front().shape;
+    const LightPlan plan = plan_light(scene, view.rays, light, receivers, {});
+    const Casters casters(scene.objects);
+    const std::vector<float> truth = visibility(casters, light, receivers, {}).visibility;
+    for (const double error : {0.08, 0.03}) {
+      const auto samples = static_cast<std::uint64_t>(detail::rays_for(plan.facts, error));
+      const MethodResult result =
+          visibility(casters, light, receivers,
+                     {.method = "reference", .options = {{"samples", samples}, {"seed", std::uint64_t{77}}}});
+      const auto [rmse, pixels] = error_in_penumbra(result.visibility, truth);
+      if (pixels < 100) continue;
+      ++judged;
+      kept += rmse <= error ? 1 : 0;
+      far_below += rmse <= 0.3 * error ? 1 : 0;
+    }
+  }
+  EXPECT_GT(judged, 60u);
+  EXPECT_GE(20 * kept, 19 * judged) << kept << " of " << judged;
+  EXPECT_LE(20 * far_below, judged) << "nor many more rays than are needed";
 }
 
 // Pixels at which the hard shadow is wrong lie beside its boundary, where the penumbra is said to be narrower than a pixel.
