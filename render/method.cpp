@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "penumbra/mesh/error.h"
+#include "render/plan/auto_method.h"
 #include "render/rays/ray_methods.h"
 #include "render/silhouette/silhouette_method.h"
 #include "render/support/nearest_word.h"
@@ -48,6 +49,7 @@ void add(std::deque<MethodInfo>& known, MethodInfo info) {
 std::deque<MethodInfo> built_in() {
   std::deque<MethodInfo> known;
   add(known, silhouette_method());
+  add(known, auto_method());
   add(known, reference_method());
   add(known, rays_method());
   add(known, hard_method());

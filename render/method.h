@@ -21,6 +21,7 @@
 #include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
 #include "penumbra/render/support/counts.h"
+#include "penumbra/render/support/decision.h"
 #include "penumbra/render/support/texture_picture.h"
 
 namespace penumbra {
@@ -58,6 +59,8 @@ struct MethodResult {
   Counts counts;
   /// What drew or traced it: OpenGL's renderer string, say. Empty: rays on the processor.
   std::string renderer;
+  /// What the method decided by itself, and why.
+  std::vector<Decision> decisions;
   /// What the method's textures hold, to look at; only where asked for.
   std::vector<TexturePicture> textures;
 };

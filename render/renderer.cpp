@@ -6,11 +6,13 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/plan/plan.h"
 #include "render/antialias.h"
 #include "render/casters_impl.h"
 #include "render/d_buffer/d_buffer_method.h"
 #include "render/light/valid_light.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
+#include "render/plan/auto_method.h"
 #include "render/rays/camera_rays.h"
 #include "render/receivers/unlit.h"
 #include "render/scene/scene_limits.h"
@@ -154,6 +156,7 @@ std::vector<MethodFrame> Renderer::State::see(const MethodInfo& info, const Opti
                       .setup = std::move(result.setup),
                       .counts = std::move(result.counts),
                       .renderer = std::move(result.renderer),
+                      .decisions = std::move(result.decisions),
                       .textures = std::move(result.textures)});
   }
   return frames;
@@ -233,6 +236,17 @@ Image Renderer::shade_again(const std::vector<std::vector<float>>& visibility) c
     lights.push_back({values, {}});
   }
   return shade(state_->scene, state_->seen->surface, lights, state_->casters.impl().threads);
+}
+
+std::vector<LightPlan> Renderer::plan(const PlanRequest& request, int width, int height) {
+  const RenderOptions options{.method = "auto", .width = width, .height = height};
+  state_->require_good(method_named(options.method), options);
+  const SurfaceBuffer& surface = state_->look(options, {});
+  std::vector<LightPlan> plans;
+  for (const Light& light : state_->scene.lights)
+    plans.push_back(plan_light(state_->casters.impl().scene, state_->casters.impl().rays(), light.shape,
+                               surface.receivers(), request));
+  return plans;
 }
 
 RenderResult Renderer::render(const RenderOptions& options) {

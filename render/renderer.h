@@ -15,6 +15,9 @@
 
 namespace penumbra {
 
+struct LightPlan;
+struct PlanRequest;
+
 /// Registers the methods that draw (OpenGL): dbuffer, occlusion-textures. Called again it does nothing.
 /// Renderers call it; call it yourself to list all methods before there is one.
 void register_drawing_methods();
@@ -45,6 +48,7 @@ struct MethodFrame {
   StageTimes stages, setup;
   Counts counts;
   std::string renderer;
+  std::vector<Decision> decisions;
   std::vector<TexturePicture> textures;
 };
 
@@ -92,6 +96,9 @@ class Renderer {
   /// method does not take, a side outside 1 to 65,536, an antialias outside 1 to kMostAntialias; SceneError where something is too far from the casters
   /// (docs/scene-file.md); SystemError where OpenGL does not start; Cancelled.
   RenderResult render(const RenderOptions& options);
+  /// What the method `auto` would do for each light of a picture of that size, in their order; nothing is drawn. Throws what
+  /// render() does for options, lights and places.
+  std::vector<LightPlan> plan(const PlanRequest& request, int width, int height);
   /// The next picture finds everything anew but for one-time set-up, though nothing has changed: for timing.
   void forget();
   /// Shades the last picture's surface with other visibilities, one a light, one sample a pixel.

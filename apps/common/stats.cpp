@@ -10,7 +10,10 @@ std::string renderer_of(const MethodFrame& frame, int threads) {
 }
 
 nlohmann::json light_stats(const MethodFrame& frame) {
-  return {{"name", frame.light}, {"stages", to_json(frame.stages)}, {"counts", to_json(frame.counts)}};
+  nlohmann::json json = {
+      {"name", frame.light}, {"stages", to_json(frame.stages)}, {"counts", to_json(frame.counts)}};
+  if (!frame.decisions.empty()) json["decisions"] = to_json(frame.decisions);
+  return json;
 }
 
 }  // namespace
@@ -33,6 +36,21 @@ nlohmann::json to_json(const Counts& counts) {
   return json;
 }
 
+nlohmann::json to_json(const std::vector<Decision>& decisions) {
+  auto json = nlohmann::json::array();
+  for (const Decision& each : decisions) {
+    auto numbers = nlohmann::json::object();
+    for (const DecisionNumber& number : each.numbers) numbers[number.name] = number.value;
+    json.push_back({{"about", each.about},
+                    {"choice", each.choice},
+                    {"reason", each.reason},
+                    {"text", each.text},
+                    {"certificate", each.is_certificate},
+                    {"numbers", std::move(numbers)}});
+  }
+  return json;
+}
+
 nlohmann::json stats_of(const RenderResult& result, int threads) {
   nlohmann::json json = {{"method", result.method},
                          {"options", to_json(result.options)},
@@ -48,6 +66,8 @@ nlohmann::json stats_of(const RenderResult& result, int threads) {
                          {"peak_memory_bytes", peak_memory_bytes()}};
   if (result.lights.size() == 1) {
     json["counts"] = to_json(result.lights.front().counts);
+    if (!result.lights.front().decisions.empty())
+      json["decisions"] = to_json(result.lights.front().decisions);
   } else {
     for (const MethodFrame& frame : result.lights) json["lights"].push_back(light_stats(frame));
   }

@@ -14,5 +14,7 @@ nlohmann::json stats_of(const RenderResult& result, int threads);
 nlohmann::json to_json(const OptionValues& values);
 nlohmann::json to_json(const StageTimes& stages);
 nlohmann::json to_json(const Counts& counts);
+/// A list; numbers under "numbers".
+nlohmann::json to_json(const std::vector<Decision>& decisions);
 
 }  // namespace penumbra::apps

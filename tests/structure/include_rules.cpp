@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 const std::string kShared = "(?:support|light|scene|receivers|rays|gl|image|shading|plan)/";
 const std::string kMethod = "render/(?!" + kShared + ")(\\w+)/";
 // What penumbra::visibility is made of.
-const std::string kVisibility = "render/(?:(?:support|light|scene|receivers|rays|silhouette)/|visibility\\.)";
+const std::string kVisibility = "render/(?:(?:support|light|scene|receivers|rays|plan|silhouette)/|visibility\\.)";
 
 constexpr Verb kNever = Verb::kNeverIncludes;
 constexpr Verb kAlone = Verb::kAloneIncludes;

@@ -1,0 +1,34 @@
+// What methods cost and how far they are off, by what was measured of a light.
+//
+// Times are those of the machine on which the constants of cost_model_fit.h were measured; what is compared are times of
+// one machine, so a plan needs no other. The terms are those of tests/bench/plan_model.py, which fits them. `./run plan-model` measures and fits again; docs/plan.md has the residuals.
+#pragma once
+
+#include "penumbra/render/plan/plan.h"
+
+namespace penumbra::detail {
+
+/// Totals of the casters that are not left out.
+struct CasterTotals {
+  double faces = 0.0, edges = 0.0;
+};
+CasterTotals totals_of_reaching(const LightFacts& facts);
+
+/// Milliseconds of a frame's visibility, and of what is made once.
+struct Cost {
+  double frame = 0.0, setup = 0.0;
+  double over(int frames) const { return frame + setup / frames; }
+};
+
+Cost cost_of_silhouette(const LightFacts& facts);
+Cost cost_of_rays(const LightFacts& facts, int samples);
+Cost cost_of_reference(const LightFacts& facts, int samples);
+
+/// RMSE of V over the penumbra.
+double error_of_silhouette(const LightFacts& facts);
+/// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts).
+double error_of_rays(const LightFacts& facts, int samples);
+/// The least square number of rays for that error, 4 to 65,536.
+int rays_for(const LightFacts& facts, double error);
+
+}  // namespace penumbra::detail

@@ -1,0 +1,206 @@
+#include "penumbra/render/plan/plan.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "penumbra/mesh/error.h"
+#include "render/plan/cost_model.h"
+
+namespace penumbra {
+namespace {
+
+using namespace detail;
+
+/// A method that may be run, by the model.
+struct Candidate {
+  std::string method;
+  OptionValues options;
+  double milliseconds, error;
+};
+
+std::string shown(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string name_of(const CasterFacts& caster) {
+  return "caster " + std::to_string(caster.object) + (caster.name.empty() ? "" : " (" + caster.name + ")");
+}
+
+/// Of a caster that reaches no receiver.
+Decision about_caster(const CasterFacts& caster, bool left_out) {
+  const bool behind = caster.reach == CasterReach::kBehindLight;
+  return {.about = name_of(caster),
+          .choice = left_out ? "left out" : "no shadow",
+          .reason = behind ? "behind-light" : "misses-receivers",
+          .text = behind ? "it lies behind the light's plane"
+                         : "no segment from a receiver to the light meets its box",
+          .is_certificate = true,
+          .numbers = {{"faces", static_cast<double>(caster.faces)}}};
+}
+
+/// Whether a method is made for the casters that reach alone: it then has hierarchies of its own, so other lights and frames do not
+/// share theirs.
+bool is_worth_leaving_out(const LightFacts& facts) {
+  std::size_t faces = 0;
+  for (const CasterFacts& caster : facts.casters) faces += caster.faces;
+  return 2.0 * totals_of_reaching(facts).faces <= static_cast<double>(faces);
+}
+
+/// By so many rays.
+void add_rays(const LightFacts& facts, const PlanRequest& request, int samples, std::vector<Candidate>& out) {
+  const OptionValues options{{"samples", static_cast<std::uint64_t>(samples)}};
+  const double error = error_of_rays(facts, samples);
+  // Certificates are of V: rays that have them do not give O.
+  if (!facts.is_rectangle && !request.with_unoccluded)
+    out.push_back({"rays", options, cost_of_rays(facts, samples).over(request.frames), error});
+  out.push_back({"reference", options, cost_of_reference(facts, samples).over(request.frames), error});
+}
+
+/// The methods that may be run, in the order in which they are preferred at equal time: with as many rays as the error
+/// asks for, and with fewer where time is limited.
+std::vector<Candidate> candidates(const LightFacts& facts, const PlanRequest& request) {
+  constexpr int kLeast = 4;
+  std::vector<Candidate> out;
+  if (!facts.is_rectangle)
+    out.push_back(
+        {"silhouette", {}, cost_of_silhouette(facts).over(request.frames), error_of_silhouette(facts)});
+  int samples = rays_for(facts, request.max_error);
+  add_rays(facts, request, samples, out);
+  for (; request.max_ms > 0.0 && samples > kLeast; samples = std::max(kLeast, samples / 4))
+    add_rays(facts, request, std::max(kLeast, samples / 4), out);
+  return out;
+}
+
+struct Choice {
+  const Candidate* candidate;
+  const char* reason;
+  std::string text;
+};
+
+/// The cheapest that keeps the error; where none does in time, the most accurate of those that keep the time.
+Choice choose(const std::vector<Candidate>& all, const PlanRequest& request) {
+  const auto keeps_error = [&](const Candidate& c) { return c.error <= request.max_error; };
+  const auto keeps_time = [&](const Candidate& c) {
+    return !(request.max_ms > 0.0) || c.milliseconds <= request.max_ms;
+  };
+  const auto cheapest = [&](const auto& suits) {
+    const Candidate* best = nullptr;
+    for (const Candidate& each : all)
+      if (suits(each) && (!best || each.milliseconds < best->milliseconds)) best = &each;
+    return best;
+  };
+  const std::string error = shown(request.max_error), time = shown(request.max_ms) + " ms";
+  const Candidate* accurate = cheapest(keeps_error);
+  if (accurate && keeps_time(*accurate))
+    return {accurate, "cheapest", "by the model it is the cheapest that keeps the error within " + error};
+  const Candidate* best = nullptr;
+  for (const Candidate& each : all)
+    if (keeps_time(each) && (!best || each.error < best->error)) best = &each;
+  if (!best)
+    return {cheapest([](const Candidate&) { return true; }), "fastest",
+            "by the model no method keeps within " + time + "; it comes nearest"};
+  if (accurate)
+    return {best, "within-time",
+            "by the model it is the most accurate within " + time + "; an error within " + error + " takes " +
+                shown(accurate->milliseconds) + " ms"};
+  return {best, "most-accurate",
+          "by the model no method keeps the error within " + error + "; it comes nearest"};
+}
+
+Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, const LightFacts& facts) {
+  Decision out{.about = "method",
+               .choice = choice.candidate->method,
+               .reason = choice.reason,
+               .text = choice.text,
+               .numbers = {{"ms", choice.candidate->milliseconds}, {"error", choice.candidate->error}}};
+  // What it was compared with: each method once, with the most rays.
+  for (const Candidate& each : all) {
+    if (std::ranges::find(out.numbers, each.method + "_ms", &DecisionNumber::name) != out.numbers.end())
+      continue;
+    out.numbers.push_back({each.method + "_ms", each.milliseconds});
+    out.numbers.push_back({each.method + "_error", each.error});
+    if (const auto samples = each.options.find("samples"); samples != each.options.end())
+      out.numbers.push_back(
+          {each.method + "_samples", static_cast<double>(std::get<std::uint64_t>(samples->second))});
+  }
+  const SampledFacts& sampled = facts.sampled;
+  out.numbers.insert(out.numbers.end(), {{"penumbra_share", sampled.penumbra.share},
+                                         {"edges_in_penumbra", sampled.penumbra.edges},
+
+                                         {"edges_where_hidden", sampled.hidden.edges},
+                                         {"boxes", sampled.penumbra.boxes}});
+  return out;
+}
+
+LightPlan& finish(LightPlan& plan, LightPlan::Action action, Decision why) {
+  plan.action = action;
+  plan.decisions.push_back(std::move(why));
+  return plan;
+}
+
+void run(LightPlan& plan, const Candidate& chosen) {
+  plan.method = chosen.method;
+  plan.options = chosen.options;
+  plan.milliseconds = chosen.milliseconds;
+  plan.error = chosen.error;
+}
+
+}  // namespace
+
+LightPlan make_plan(const LightFacts& facts, const PlanRequest& request) {
+  if (!(request.max_error > 0.0)) throw UsageError("a plan's max-error must be above 0");
+  LightPlan plan;
+  plan.facts = facts;
+  const auto receivers = static_cast<double>(facts.receivers);
+  if (facts.dark == facts.receivers)
+    return finish(plan, LightPlan::Action::kDark,
+                  {.about = "light",
+                   .choice = "nothing",
+                   .reason = "reaches-no-receiver",
+                   .text = "every receiver lies behind its plane or faces away from it",
+                   .is_certificate = true,
+                   .numbers = {{"receivers", receivers}}});
+  const bool worth = is_worth_leaving_out(facts);
+  bool any = false;
+  for (const CasterFacts& caster : facts.casters) {
+    const bool reaches = caster.reach == CasterReach::kMayReach;
+    any = any || reaches;
+    plan.left_out.push_back(!reaches && worth);
+    if (!reaches) plan.decisions.push_back(about_caster(caster, worth));
+  }
+  if (!any)
+    return finish(plan, LightPlan::Action::kUnshadowed,
+                  {.about = "light",
+                   .choice = "no shadows",
+                   .reason = "no-caster-reaches",
+                   .text = "no caster lies between it and a receiver",
+                   .is_certificate = true,
+                   .numbers = {{"receivers", receivers}}});
+  if (facts.is_point) {
+    run(plan, {"hard", {}, 0.0, 0.0});
+    return finish(plan, LightPlan::Action::kMethod,
+                  {.about = "method",
+                   .choice = "hard",
+                   .reason = "point-light",
+                   .text = "a point has no penumbra; one ray a receiver is exact",
+                   .is_certificate = true});
+  }
+  if (facts.widest_penumbra < request.hard_below) {
+    run(plan, {"hard", {}, 0.0, 0.0});
+    return finish(
+        plan, LightPlan::Action::kMethod,
+        {.about = "method",
+         .choice = "hard",
+         .reason = "narrow-penumbra",
+         .text = "no penumbra is as wide as " + shown(request.hard_below) + " pixels on flat surfaces",
+         .numbers = {{"widest_penumbra_pixels", facts.widest_penumbra}}});
+  }
+  const std::vector<Candidate> all = candidates(facts, request);
+  const Choice choice = choose(all, request);
+  run(plan, *choice.candidate);
+  return finish(plan, LightPlan::Action::kMethod, why_chosen(choice, all, facts));
+}
+
+}  // namespace penumbra

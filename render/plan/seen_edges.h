@@ -1,0 +1,65 @@
+// Planner, step measure: a sample of the casters' edges and faces, and how many of all lie before a light.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "penumbra/render/plan/plan.h"
+#include "penumbra/render/scene/scene.h"
+
+namespace penumbra::detail {
+
+/// Some of the edges of the casters that may reach receivers.
+class EdgeSample {
+ public:
+  /// Evenly chosen: every so manieth edge. Cost O(casters + count).
+  EdgeSample(const Scene& objects, const CircularLight& light, std::span<const CasterFacts> casters,
+             std::size_t count);
+
+  /// How many edges lie across the light as x sees it and are silhouettes from there: boundary edges, and those with one
+  /// face towards x and one away.
+  struct Crossing {
+    double edges = 0.0;
+    /// Edges between two faces of fine casters count by their length over a tenth of the light's radius, at most 1: short
+    /// ones are merged (silhouette-tolerance).
+    double merged = 0.0;
+    /// The sum of their lengths, light radii, at most two each.
+    double length = 0.0;
+  };
+  /// An estimate. Cost O(count).
+  Crossing crossing(const Vec3& x) const;
+
+ private:
+  /// An edge in the light's frame: u, v, depth.
+  struct Seen {
+    Vec3 from, to;
+    /// Planes of the faces, normal·p + offset; of a boundary edge the second is 0.
+    std::array<Vec3, 2> normals;
+    std::array<double, 2> offsets;
+    bool is_boundary, may_merge;
+  };
+  Vec3 in_frame(const Vec3& world) const;
+  /// How long the edge is across the light, in radii, as x sees it; 0 where it is not.
+  double length_across(const Seen& edge, const Vec3& x) const;
+
+  CircularLight light_;
+  LightFrame axes_;
+  std::vector<Seen> edges_;
+  double each_stands_for_ = 1.0;
+};
+
+/// Some of the faces' boxes.
+class FaceSample {
+ public:
+  FaceSample(const Scene& objects, std::span<const CasterFacts> casters, std::size_t count);
+  /// An estimate of how many boxes of faces the segment from x along `way` meets; `endless`: the ray. Cost O(count).
+  double boxes_on(const Vec3& x, const Vec3& way, bool endless) const;
+
+ private:
+  std::vector<Bounds> boxes_;
+  double each_stands_for_ = 1.0;
+};
+
+}  // namespace penumbra::detail
