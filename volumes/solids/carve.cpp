@@ -1,6 +1,7 @@
 #include "volumes/solids/carve.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -14,6 +15,9 @@ constexpr double kStart = 1.0 / 16;
 /// Of the grid's spacing: so far outside of triangles that cannot be proved points are tried, so that what they bulge between the
 /// points is in umbra as well.
 constexpr double kMargin = 0.05;
+/// Of a tolerance, along the grid's axes: these points are at most so far apart. Their lattice divides sides into at least so many.
+constexpr double kApart = 0.18;
+constexpr int kFewestParts = 5;
 
 /// Moves what bad triangles touch.
 class Carver {
@@ -123,6 +127,8 @@ GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& 
                   const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress) {
   const bool umbra = request.region == ShadowRegion::kUmbra;
   const double spacing = std::max({grid.step().x, grid.step().y, grid.step().z});
+  const int parts =
+      std::max(kFewestParts, static_cast<int>(std::ceil(spacing / (kApart * request.tolerance))));
   Carver carver(grid, edges, umbra);
   KnownPoints points;
   for (bool proofs = !umbra;;) {
@@ -133,8 +139,9 @@ GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& 
     const TriangleJudge::Surface part{surface.positions, triangles};
     TriangleJudge::Faults faults;
     if (proofs) {
-      faults = judge.try_proofs(
-          part, umbra ? grown(surface, kMargin * spacing, grid.box()) : surface.positions, evaluations);
+      faults =
+          judge.try_proofs(part, umbra ? grown(surface, kMargin * spacing, grid.box()) : surface.positions,
+                           parts, evaluations);
     } else {
       TrianglePoints::Known known = points.of(surface, which);
       faults = judge.try_middles(part, known, evaluations);

@@ -22,8 +22,10 @@ class TriangleJudge {
   /// Corners, middles of sides and of triangles are tried, each once, but for those that are known. Of an umbra. `known`: what is
   /// known to have no fault before, and then after. `evaluations` grows by the points.
   Faults try_middles(const Surface& surface, TrianglePoints::Known& known, std::size_t& evaluations) const;
-  /// Shafts are tried; where they prove nothing of an umbra, many points of the triangles with the same corners among `grown`.
-  Faults try_proofs(const Surface& surface, std::span<const Vec3> grown, std::size_t& evaluations) const;
+  /// Shafts are tried; where they prove nothing of an umbra, points of the triangles with the same corners among `grown`: a
+  /// lattice that divides their sides into `parts`.
+  Faults try_proofs(const Surface& surface, std::span<const Vec3> grown, int parts,
+                    std::size_t& evaluations) const;
   /// One a triangle: it is proved. `depth`: see HiddenProof.
   std::vector<char> prove(const Surface& surface, int depth) const;
 

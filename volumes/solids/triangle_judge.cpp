@@ -10,8 +10,6 @@
 namespace penumbra::detail {
 namespace {
 
-/// Sides of triangles that cannot be proved are divided into so many parts.
-constexpr int kParts = 5;
 constexpr std::uint8_t kAll = 7;
 
 using Corners = std::array<Vec3, 3>;
@@ -62,7 +60,7 @@ std::vector<char> TriangleJudge::prove(const Surface& surface, int depth) const 
 }
 
 TriangleJudge::Faults TriangleJudge::try_proofs(const Surface& surface, std::span<const Vec3> grown,
-                                                std::size_t& evaluations) const {
+                                                int parts, std::size_t& evaluations) const {
   const std::vector<char> proved = prove(surface, 0);
   Faults out(proved.size(), 0);
   std::vector<std::size_t> asked;
@@ -76,7 +74,7 @@ TriangleJudge::Faults TriangleJudge::try_proofs(const Surface& surface, std::spa
     for (const std::size_t i : asked) out[i] = kAll;
     return out;
   }
-  const PointPattern pattern = lattice_points(kParts);
+  const PointPattern pattern = lattice_points(parts);
   const TrianglePoints points(grown, triangles, pattern);
   const std::vector<float> seen = request_.judge(points.points());
   evaluations += seen.size();
