@@ -1,5 +1,6 @@
 #include "apps/viewer/show.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -43,11 +44,9 @@ std::optional<Document> ask_for_file(Window& window, ViewerOptions& options) {
   std::string message;
   int frames_to_draw = 3;
   for (int frames = 0; !window.closing();) {
-    if (frames_to_draw > 0)
-      window.wait(0.016);
-    else
-      window.wait(options.screenshot.empty() ? -1.0 : 0.016);
-    frames_to_draw = frames_to_draw > 0 ? frames_to_draw - 1 : 2;
+    const bool rests = frames_to_draw == 0 && options.screenshot.empty();
+    const bool event = window.wait(rests ? -1.0 : 0.016);
+    frames_to_draw = event ? 2 : std::max(0, frames_to_draw - 1);  // the last events need frames as well
     if (window.minimised()) continue;
     window.begin_frame();
     const StartScreen::Choice choice = screen.draw(message);

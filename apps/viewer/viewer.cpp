@@ -73,7 +73,8 @@ void Viewer::wait() {
   const bool busy = pointer_.dragging() || (!options_.screenshot.empty() && settled());
   if (frames_to_draw_ > 0) {
     --frames_to_draw_;
-    return window_.wait(busy ? 0.008 : 0.016);
+    if (window_.wait(busy ? 0.008 : 0.016)) frames_to_draw_ = 2;
+    return;
   }
   window_.wait(wishes_.restless()             ? 0.03
                : window_.minimised()          ? 0.5

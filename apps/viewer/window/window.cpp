@@ -182,11 +182,14 @@ std::vector<Window::Key> Window::take_keys() {
   return std::exchange(keys_, {});
 }
 
-void Window::wait(double seconds) {
-  if (seconds < 0.0)
+bool Window::wait(double seconds) {
+  if (seconds < 0.0) {
     glfwWaitEvents();
-  else
-    glfwWaitEventsTimeout(std::max(seconds, 1e-3));
+    return true;
+  }
+  const double end = glfwGetTime() + std::max(seconds, 1e-3);
+  glfwWaitEventsTimeout(std::max(seconds, 1e-3));
+  return glfwGetTime() < end;
 }
 
 void Window::wake() {

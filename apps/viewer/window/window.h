@@ -52,8 +52,8 @@ class Window {
   };
   std::vector<Key> take_keys();
 
-  /// Waits for an event at most so long; a negative time has no end. `wake` ends it from any thread.
-  void wait(double seconds);
+  /// Waits for an event at most so long; a negative time has no end. `wake` ends it from any thread. False: none came in time.
+  bool wait(double seconds);
   static void wake();
 
   /// A hand in place of the mouse, from the next frame on.
