@@ -1,7 +1,8 @@
 // What methods cost and how far they are off, by what was measured of a light.
 //
 // Times are those of the machine on which the constants of cost_model_fit.h were measured; what is compared are times of
-// one machine, so a plan needs no other. The terms are those of tests/bench/plan_model.py, which fits them. `./run plan-model` measures and fits again; docs/plan.md has the residuals.
+// one machine, so a plan needs no other. The terms are those of tests/bench/plan_model.py, which fits them. `./run plan-model`
+// measures and fits again; docs/plan.md has the residuals.
 #pragma once
 
 #include "penumbra/render/plan/plan.h"

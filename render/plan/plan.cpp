@@ -128,7 +128,6 @@ Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, con
   const SampledFacts& sampled = facts.sampled;
   out.numbers.insert(out.numbers.end(), {{"penumbra_share", sampled.penumbra.share},
                                          {"edges_in_penumbra", sampled.penumbra.edges},
-
                                          {"edges_where_hidden", sampled.hidden.edges},
                                          {"boxes", sampled.penumbra.boxes}});
   return out;
@@ -145,6 +144,12 @@ void run(LightPlan& plan, const Candidate& chosen) {
   plan.options = chosen.options;
   plan.milliseconds = chosen.milliseconds;
   plan.error = chosen.error;
+}
+
+LightPlan& finish_hard(LightPlan& plan, Decision why) {
+  why.about = "method";
+  why.choice = plan.method = "hard";
+  return finish(plan, LightPlan::Action::kMethod, std::move(why));
 }
 
 }  // namespace
@@ -178,25 +183,15 @@ LightPlan make_plan(const LightFacts& facts, const PlanRequest& request) {
                    .text = "no caster lies between it and a receiver",
                    .is_certificate = true,
                    .numbers = {{"receivers", receivers}}});
-  if (facts.is_point) {
-    run(plan, {"hard", {}, 0.0, 0.0});
-    return finish(plan, LightPlan::Action::kMethod,
-                  {.about = "method",
-                   .choice = "hard",
-                   .reason = "point-light",
-                   .text = "a point has no penumbra; one ray a receiver is exact",
-                   .is_certificate = true});
-  }
-  if (facts.widest_penumbra < request.hard_below) {
-    run(plan, {"hard", {}, 0.0, 0.0});
-    return finish(
-        plan, LightPlan::Action::kMethod,
-        {.about = "method",
-         .choice = "hard",
-         .reason = "narrow-penumbra",
-         .text = "no penumbra is as wide as " + shown(request.hard_below) + " pixels on flat surfaces",
-         .numbers = {{"widest_penumbra_pixels", facts.widest_penumbra}}});
-  }
+  if (facts.is_point)
+    return finish_hard(plan, {.reason = "point-light",
+                              .text = "a point has no penumbra; one ray a receiver is exact",
+                              .is_certificate = true});
+  if (facts.widest_penumbra < request.hard_below)
+    return finish_hard(
+        plan, {.reason = "narrow-penumbra",
+               .text = "no penumbra is as wide as " + shown(request.hard_below) + " pixels on flat surfaces",
+               .numbers = {{"widest_penumbra_pixels", facts.widest_penumbra}}});
   const std::vector<Candidate> all = candidates(facts, request);
   const Choice choice = choose(all, request);
   run(plan, *choice.candidate);

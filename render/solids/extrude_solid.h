@@ -5,7 +5,7 @@
 //
 // Points of a grid are judged by the one call for visibility (visibility.h). The surface between those inside and those
 // outside lies on the grid's edges (volumes/solids/). Each triangle of an umbra is then moved inward until it is proved to be wholly
-// in umbra, or is not contradicted by any point that is tried on it; each triangle of a penumbra is moved outward until it is
+// in umbra, or no point that is tried a twentieth of the grid's spacing outside of it sees light; each triangle of a penumbra is moved outward until it is
 // proved to be wholly lit. What that says of the inside is told in volumes/solids/solid_mesher.h.
 #pragma once
 
@@ -58,7 +58,8 @@ struct ShadowSolid {
 
 /// Surface by marching tetrahedra; simplified on one side, as progressive hulls are (P. Sander et al., "Silhouette clipping",
 /// 2000, section 3). Cost: the grid and one call for visibility at each of its points near the surface, and some twenty points a
-/// triangle; on all threads. Seconds at the usual tolerance; triangles grow like 1 / tolerance².
+/// triangle, several times where an umbra's are moved; on all threads. At the usual tolerance 2 s for the umbra of a bunny, 39 s
+/// for that of an armadillo under a light whose radius is a sixth of its diagonal, on two cores; triangles grow like 1 / tolerance².
 ///
 /// The bodies of the casters belong to umbra and penumbra, unless they are left out. What is on the light's plane or behind it does not. Deterministic.
 /// Throws UsageError for a rectangle, options outside their domain, or a tolerance so small that the grid does not fit;

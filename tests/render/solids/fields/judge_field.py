@@ -6,7 +6,6 @@ The field is a cube of GRID³ voxels around (0, 1, 0), four units long: a bunny 
 voxel lies. A third of the VOXELS see nothing, a third a part and a third all of the light. Exit code 77 where the reader's module
 is not installed.
 """
-import importlib
 import json
 import pathlib
 import random
@@ -14,8 +13,8 @@ import subprocess
 import sys
 import tempfile
 
-MODULES = {"vtk": "vtkmodules.vtkIOXML", "openvdb": "pyopenvdb"}
-EXTENSIONS = {"vtk": "vti", "openvdb": "vdb"}
+from read_field import EXTENSIONS, module_of, vtk_image
+
 LOW, HIGH = (-2.0, -1.0, -2.0), (2.0, 3.0, 2.0)
 SEED = 22
 
@@ -35,11 +34,7 @@ def scene_in_cube(scene, folder):
 
 
 def by_vtk(module, path):
-    reader = module.vtkXMLImageDataReader()
-    reader.SetFileName(str(path))
-    reader.Update()
-    image = reader.GetOutput()
-    seen = image.GetPointData().GetArray("seen")
+    image, seen = vtk_image(module, path)
 
     def voxel(*index):
         at = image.ComputePointId(index)
@@ -72,10 +67,8 @@ def chosen(voxel, grid, count):
 
 def main():
     reader, penumbra, judge, scene, grid, voxels = sys.argv[1:]
-    try:
-        module = importlib.import_module(MODULES[reader])
-    except ImportError:
-        print(f"{MODULES[reader]} is not installed: the field was not read by {reader}")
+    module = module_of(reader)
+    if module is None:
         return 77
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

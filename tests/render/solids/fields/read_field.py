@@ -17,6 +17,15 @@ EXTENSIONS = {"numpy": "npy", "vtk": "vti", "openvdb": "vdb"}
 GRID = 40
 
 
+def module_of(reader):
+    """None where it is not installed; a line says so."""
+    try:
+        return importlib.import_module(MODULES[reader])
+    except ImportError:
+        print(f"{MODULES[reader]} is not installed: the field was not read by {reader}")
+        return None
+
+
 def expected(path):
     """Shape and values of an NPY file, read without NumPy."""
     data = path.read_bytes()
@@ -35,14 +44,19 @@ def by_numpy(module, path, counts, values):
     assert array.ravel().tolist() == list(values)
 
 
-def by_vtk(module, path, counts, values):
+def vtk_image(module, path):
+    """The image, and its array of values."""
     reader = module.vtkXMLImageDataReader()
     reader.SetFileName(str(path))
     reader.Update()
     image = reader.GetOutput()
+    return image, image.GetPointData().GetArray("seen")
+
+
+def by_vtk(module, path, counts, values):
+    image, seen = vtk_image(module, path)
     assert image.GetDimensions() == counts, image.GetDimensions()
     assert min(image.GetSpacing()) > 0.0
-    seen = image.GetPointData().GetArray("seen")
     assert [seen.GetValue(i) for i in range(seen.GetNumberOfTuples())] == list(values)
 
 
@@ -60,10 +74,8 @@ def by_openvdb(module, path, counts, values):
 
 def main():
     reader, penumbra, scene = sys.argv[1:]
-    try:
-        module = importlib.import_module(MODULES[reader])
-    except ImportError:
-        print(f"{MODULES[reader]} is not installed: the field was not read by {reader}")
+    module = module_of(reader)
+    if module is None:
         return 77
     with tempfile.TemporaryDirectory() as folder:
         files = {kind: pathlib.Path(folder) / f"seen.{kind}" for kind in {"npy", EXTENSIONS[reader]}}
