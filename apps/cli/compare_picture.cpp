@@ -98,7 +98,7 @@ Picture side_by_side(std::span<const JudgedImage> images, const Image* reference
   add(shown(reference ? *reference : first.image, first.comparison.reference), reference_name);
   for (const JudgedImage& judged : images)
     add(difference_picture(judged, scale),
-        images.size() == 1 ? "visibility, left - middle" : judged.name + ", difference");
+        images.size() == 1 ? "visibility, left - middle" : judged.name + ", error");
   draw_scale(picture, picture.width() - kGap, kBaseline, scale);
   return picture;
 }

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -15,8 +16,11 @@
 namespace penumbra::apps {
 namespace {
 
+std::atomic<void (*)()> also{nullptr};
+
 /// Its own disposition is the default again (SA_RESETHAND) when it is raised a second time.
 void clean_up(int signal) {
+  if (void (*const first)() = also) first();
   remove_unfinished_files();
   raise(signal);
 }
@@ -68,6 +72,10 @@ void clean_up_when_interrupted() {
     sigaction(signal, &action, nullptr);
   }
   signal(SIGXFSZ, SIG_IGN);
+}
+
+void do_when_interrupted(void (*also_do)()) {
+  also = also_do;
 }
 
 void say_where_memory_is_used_up() {

@@ -8,6 +8,9 @@ namespace penumbra::apps {
 /// an error of writing.
 void clean_up_when_interrupted();
 
+/// Calls this first when that happens: what a signal handler may do. One at a time; null: nothing.
+void do_when_interrupted(void (*also_do)());
+
 /// From here on a crash where memory is used up (drivers of OpenGL do not ask whether they got it), and an exception for want
 /// of memory that nothing catches, end the program with one line and the exit code of a failure. Other crashes stay as they are.
 void say_where_memory_is_used_up();

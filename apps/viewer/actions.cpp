@@ -26,7 +26,8 @@ std::string save_picture(const ActionInput& input) {
   if (!input.frame || !input.settled || input.frame->sides.empty())
     return "the picture is not final yet; try again in a moment";
   const std::filesystem::path path = fresh_name(input.folder, input.state, ".png");
-  write_png(path, input.frame->sides.front().result->image, input.state.exposure);
+  write_png(path, input.frame->sides.front().result->image,
+            Display{input.state.exposure, input.frame->model->picture.background});
   return "saved " + path.string();
 }
 

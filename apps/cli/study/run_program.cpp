@@ -9,13 +9,23 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
+
+#include "apps/common/interrupts.h"
 
 extern char** environ;
 
 namespace penumbra::apps {
 namespace {
+
+std::atomic<pid_t> running{0};
+static_assert(std::atomic<pid_t>::is_always_lock_free, "a signal handler reads it");
+
+void kill_running() {
+  if (const pid_t child = running) kill(child, SIGKILL);
+}
 
 /// Starts the program with one stream into the pipe and the other into nothing. 0 where that fails.
 pid_t start(const std::string& program, std::vector<std::string>& words, Stream stream,
@@ -64,8 +74,11 @@ std::optional<std::string> run_program(const std::string& program, std::vector<s
   std::optional<std::string> text;
   int status = 0;
   if (child != 0) {
+    running = child;
+    do_when_interrupted(kill_running);
     text = read_all(ends[0], most_seconds);
     if (!text) kill(child, SIGKILL);
+    do_when_interrupted(nullptr);
     if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) text.reset();
   }
   close(ends[0]);

@@ -41,7 +41,9 @@ Pixels picture_of(const Frame& frame, const Side& side, Shown shown, double expo
     }
     return pixels;
   }
-  return {image.width, image.height, encode_srgb(image, exposure)};
+  Display display{.exposure_stops = exposure, .background = frame.model->picture.background};
+  display.background.transparent = false;  // the window has nothing behind it
+  return {image.width, image.height, encode_srgb(image, display)};
 }
 
 Pixels difference_of(const Frame& frame, double scale) {

@@ -7,8 +7,8 @@
 
 namespace penumbra::viewer {
 
-/// Of one of the frame's sides: the bytes that write_png writes, or the selected light's visibility or region in
-/// colors (state.h).
+/// Of one of the frame's sides: the bytes that write_png writes over the scene's background (gray where that is transparent), or the
+/// selected light's visibility or region in colors (state.h).
 Pixels picture_of(const Frame& frame, const Side& side, Shown shown, double exposure);
 /// The selected light's visibility on the left side minus that on the right in apps/common/picture.h's signed colors, `scale` saturates
 /// them; gray where no surface is seen. Both sides have one size.

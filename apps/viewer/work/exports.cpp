@@ -49,14 +49,16 @@ HandledLight light_on_path(const State& state, double t) {
 }
 
 std::string export_sequence(const std::filesystem::path& folder, const State& state) {
-  Renderer renderer(current_scene(state));
+  const Scene scene = current_scene(state);
+  const Display display{state.exposure, scene.picture.background};
+  Renderer renderer(scene);
   for (int i = 0; i < kPictures; ++i) {
     State moved = state;
     moved.set_handled(light_on_path(state, static_cast<double>(i) / (kPictures - 1)));
     renderer.set_light(state.selected, moved.lights[state.selected]);
     char end[32];
     std::snprintf(end, sizeof end, "-path-%03d.png", i + 1);
-    write_png(folder / (state.path.stem().string() + end), renderer.render(state.left).image, state.exposure);
+    write_png(folder / (state.path.stem().string() + end), renderer.render(state.left).image, display);
   }
   return "saved " + std::to_string(kPictures) + " pictures " +
          (folder / (state.path.stem().string() + "-path-*.png")).string();

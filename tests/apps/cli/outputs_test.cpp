@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <thread>
+
+#include "apps/cli/study/run_program.h"
 #include "apps/common/interrupts.h"
 #include "mesh/io/write_file.h"
 #include "penumbra/render/image/image.h"
@@ -157,6 +160,23 @@ TEST_F(OutputsTest, AreNamedByVerbose) {
   for (const char* name : {"p.ply, ", "r.json, "})
     EXPECT_NE(volumes.err.find("wrote " + path(name)), std::string::npos) << volumes.err;
   EXPECT_EQ(run(drawn({"--output", path("a.png")})).err, "");
+}
+
+TEST_F(OutputsTest, AnInterruptEndsTheProgramThatIsWaitedFor) {
+  const std::string script = "touch begun; kill -INT $PPID; sleep 0.5; touch late";
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(file("").c_str()) != 0) _exit(8);
+    apps::clean_up_when_interrupted();
+    apps::run_program("sh", {"sh", "-c", script}, apps::Stream::kOutput);
+    _exit(9);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGINT);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1'000));
+  EXPECT_TRUE(std::filesystem::exists(file("begun")));
+  EXPECT_FALSE(std::filesystem::exists(file("late")));
 }
 
 TEST_F(OutputsTest, AnInterruptLeavesNoTemporaryFile) {

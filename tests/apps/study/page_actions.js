@@ -21,7 +21,8 @@
     context.fillStyle = text;
     return [1, 3, 5].map(k => parseInt(context.fillStyle.slice(k, k + 2), 16));
   };
-  // Marks beside the front are see-through, and a canvas rounds their colors.
+  // Marks beside the front are paler: mixed with the white or dark paper.
+  const pale = color => color.map((value, k) => .55 * value + .45 * rgb(getComputedStyle(document.documentElement).getPropertyValue("--panel").trim())[k]);
   const has = (seen, color) => [...seen].some(text => text.split(",").every((value, k) => Math.abs(value - color[k]) <= 8));
   const click = (plot, point) => {
     const box = plot.over.getBoundingClientRect();
@@ -41,8 +42,14 @@
     check(document.querySelectorAll("#scenes .uplot").length === Study.scenes.length, "one plot a scene");
     const methods = new Set(Study.rows.map(row => row.method));
     const inPlot = colors(get("plot").querySelector("canvas"));
-    for (const method of methods) check(has(inPlot, rgb(Study.colorOf(method))), `no mark of ${method} in the plot`);
+    for (const method of methods) {
+      const color = rgb(Study.colorOf(method));
+      check(has(inPlot, color) || has(inPlot, pale(color)), `no mark of ${method} in the plot`);
+    }
     check(get("short").textContent.includes("fastest"), "nothing in short");
+    check(get("short").querySelectorAll("tbody tr").length === [...methods].filter(method => method !== "none").length, "a line a method in short");
+    check(get("short").querySelectorAll("td.best").length >= 3, "no time in short is the best");
+    check([...get("short").querySelectorAll(".what")].every(cell => cell.textContent.length > 10), "a method is not explained");
     check(get("choice").querySelectorAll("tbody tr").length === Study.scenes.length + 1, "a line a scene in the table");
     check(get("holders").querySelectorAll(".bar-line button").length >= Study.scenes.length, "no method in the bars");
     check(Study.csv().trim().split("\n").length === Study.rows.length + 1, "a line a row in the CSV");

@@ -17,10 +17,10 @@ Study.AREAS = { penumbra: "where the shadow is soft", all: "all" };
 
 // What people use instead, measured beside: what of it compares, and what does not. `short` stands beside its numbers.
 Study.PEERS = {
-  "embree-loop": { short: "independent rays, one at a time, that start .001 away", long: "a plain loop over Embree's rays as its tutorial has it: one independent ray at a time, started .001 away from the surface." },
-  povray: { short: "time of one process; the horizon counts for the light's center alone", long: "the circular area light of POV-Ray: the same n × n points of the light at every pixel, the horizon for its center alone; V is the ratio of a picture with and one without shadows." },
-  cycles: { short: "time of Blender's render call, shading in it", long: "Blender's Cycles, direct light only, no denoiser; V is the ratio of a picture with and one without shadows. Evenly weighed, each point of the light counts alike, as in V; by irradiance, as Blender has it, cosines and distance count, which is another number. Its time has shading in it." },
-  "threejs-pcss": { short: "time of software OpenGL, no measure of a GPU", long: "three.js with percentage-closer soft shadows as in its example, in headless Chromium; V is the ratio of a frame with and one without shadows, the horizon counts for the light's center alone. Its time is that of software OpenGL (SwiftShader): it says nothing of a GPU." },
+  "embree-loop": { summary: "one ray at a time, by Embree", short: "independent rays, one at a time, that start .001 away", long: "a plain loop over Embree's rays as its tutorial has it: one independent ray at a time, started .001 away from the surface." },
+  povray: { summary: "POV-Ray's circular area light", short: "time of one process; the horizon counts for the light's center alone", long: "the circular area light of POV-Ray: the same n × n points of the light at every pixel, the horizon for its center alone; V is the ratio of a picture with and one without shadows." },
+  cycles: { summary: "Blender's Cycles, no denoiser", short: "time of Blender's render call, shading in it", long: "Blender's Cycles, direct light only, no denoiser; V is the ratio of a picture with and one without shadows. Evenly weighed, each point of the light counts alike, as in V; by irradiance, as Blender has it, cosines and distance count, which is another number. Its time has shading in it." },
+  "threejs-pcss": { summary: "percentage-closer soft shadows of three.js, on software OpenGL", short: "time of software OpenGL, no measure of a GPU", long: "three.js with percentage-closer soft shadows as in its example, in headless Chromium; V is the ratio of a frame with and one without shadows, the horizon counts for the light's center alone. Its time is that of software OpenGL (SwiftShader): it says nothing of a GPU." },
 };
 
 // Errors below this are drawn at it: the axis is logarithmic.
@@ -45,6 +45,8 @@ Study.errorOf = (row, view) => {
   const untold = view.error === "rmse" && figures.rmse_low === 0;
   return { value: Math.max(Study.FLOOR, untold ? Math.max(figures.rmse_high, Study.leastRmse(row.error.samples, figures.pixels)) : value), below: untold || value < Study.FLOOR };
 };
+/** One line: how the method computes visibility. */
+Study.summaryOf = method => Study.PEERS[method]?.summary || Study.summaries?.[method] || "";
 Study.rmseText = row => Study.errorText(Study.errorOf(row, { error: "rmse", area: "penumbra" }));
 Study.timeOf = (row, view) => Study.TIMES[view.time].of(row);
 
@@ -79,7 +81,8 @@ Study.frontOf = points => {
 };
 
 /** "silhouette-rows 16" of "silhouette, silhouette-rows 16"; "defaults" where nothing differs. */
-Study.settingOf = label => label.includes(", ") ? label.slice(label.indexOf(", ") + 2) : "defaults";
+Study.settingOf = label => (label.includes(", ") ? label.slice(label.indexOf(", ") + 2) : "defaults")
+  .replace(/\d\.?\d*e-\d+/g, text => Study.digits(Number(text), 2));
 
 Study.digits = (value, count = 3) => {
   if (!Number.isFinite(value)) return "–";
@@ -99,6 +102,13 @@ Study.element = (name, attributes = {}, ...children) => {
     key.startsWith("on") ? node.addEventListener(key.slice(2), value) : node.setAttribute(key, value);
   node.append(...children);
   return node;
+};
+/** A mix of a color of the page and what is behind: a share of the color. Both as #rrggbb. */
+Study.faded = (color, share) => {
+  const behind = getComputedStyle(document.documentElement).getPropertyValue("--panel").trim();
+  const part = (text, k) => parseInt(text.slice(2 * k + 1, 2 * k + 3), 16);
+  const mixed = [0, 1, 2].map(k => Math.round(share * part(color, k) + (1 - share) * part(behind, k)));
+  return `rgb(${mixed.join(", ")})`;
 };
 Study.colorOf = method => getComputedStyle(document.documentElement)
   .getPropertyValue(`--m${Study.methods.indexOf(method) % 12}`).trim();

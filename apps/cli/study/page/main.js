@@ -32,17 +32,19 @@
   const rowsInView = () => view.scene === OVER_ALL ? Study.scenes.flatMap(seen => seen.rows) : Study.cases.find(seen => seen.id === view.scene).rows;
   const drawMain = () => {
     const points = view.scene === OVER_ALL ? Study.pointsOverAll(view) : Study.pointsOf(rowsInView(), view);
+    get("mean").textContent = view.scene === OVER_ALL ? `Times are means over the ${Study.scenes.length} scenes, errors root mean squares.` : "";
     Study.mainPlot = Study.makePlot(get("plot"), points, {
       height: Math.max(300, Math.min(520, innerHeight * .6)), xLabel: timeTitle(), yLabel: errorTitle(), chosen, onPick: pickPoint, say, tip });
   };
   const drawScenes = () => {
     get("scenes").replaceChildren();
+    const range = Study.rangesOf(Study.scenes.flatMap(seen => Study.pointsOf(seen.rows, view)));
     const plots = Study.scenes.map(seen => {
       const box = Study.element("div", { class: "plot" });
       const title = Study.element("button", { type: "button", onclick: () => choose(seen.id) }, seen.scene);
       get("scenes").append(Study.element("div", {}, Study.element("h3", {}, title), box));
       return () => Study.makePlot(box, Study.pointsOf(seen.rows, view), {
-        height: 240, xLabel: "ms", yLabel: Study.ERRORS[view.error].title, small: true, onPick: pickPoint, tip });
+        height: 240, xLabel: "ms", yLabel: Study.ERRORS[view.error].title, small: true, range, onPick: pickPoint, tip });
     });
     plots.forEach(make => make());
   };
@@ -77,7 +79,7 @@
       box.checked = !view.hidden.has(method);
       const mark = Study.element("canvas", { width: 36, height: 36, "aria-hidden": "true" });
       Study.drawMark(mark.getContext("2d"), method, 18, 18, 9);
-      return Study.element("label", {}, box, mark, method);
+      return Study.element("label", { title: Study.summaryOf(method) }, box, mark, method);
     }));
   };
 
@@ -90,8 +92,9 @@
 
   const fillAbout = () => {
     const { machine, threads, version, commit, frames, samples, double_pixels: pixels, resampled } = Study.about;
-    const text = `${machine.processor}, ${threads} threads, ${machine.instruction_set}; penumbra ${version}${commit ? ` (${commit})` : ""}; ` +
-      `${Study.scenes.length} scenes, ${Study.rows.length} rows.`;
+    const sizes = [...new Set(Study.scenes.map(seen => `${seen.width}×${seen.height}`))];
+    const text = `${machine.processor}, ${threads} threads, ${machine.instruction_set}, no graphics card used; penumbra ${version}${commit ? ` (${commit})` : ""}; ` +
+      `${Study.rows.length} measurements on ${Study.scenes.length} scenes${sizes.length === 1 ? ` of ${sizes[0]} pixels` : ""}.`;
     get("about").textContent = text;
     const renderers = [...new Set(Study.rows.map(row => row.renderer).filter(Boolean))];
     get("how").replaceChildren(Study.element("ul", {}, ...[
@@ -102,8 +105,10 @@
       `Where the shadow is soft: pixels at which the references see part of the light.`,
       pixels > 0 ? `At ${pixels} pixels a scene, chosen by chance, rays in double that share nothing with the methods judge as well.` : "",
       `A certificate is a pixel of which a method says that it is wholly lit or wholly dark; 256 rays a pixel contradict the wrong ones.`,
+      `Times within ${Study.TIE_PERCENT}% of each other, or whose quartiles beside the default method overlap, count as equal: of these the defaults are named.`,
       `All scenes: the geometric mean of times, and the root mean square of errors.`,
       renderers.length ? `Drawn by: ${renderers.join("; ")}.` : "",
+      ...Study.methods.filter(name => !(name in Study.PEERS) && Study.summaryOf(name)).map(name => `${name}: ${Study.summaryOf(name)}.`),
       ...Object.entries(Study.PEERS).filter(([name]) => Study.methods.includes(name)).map(([name, { long }]) => `${name}: ${long}`),
     ].filter(Boolean).map(line => Study.element("li", {}, line))));
   };

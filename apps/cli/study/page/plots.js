@@ -1,8 +1,19 @@
 // Plots of time against error: axes and zoom by uPlot; points, front, hover and keyboard here.
 "use strict";
 
-/** Draws the mark of a method around (x, y), `r` pixels. Methods differ in shape as well as in color. */
-Study.drawMark = (ctx, method, x, y, r, filled = true) => {
+/**
+ * Draws the mark of a method around (x, y), `r` pixels. Methods differ in shape as well as in color; what people use instead has strokes
+ * in place of a filled shape.
+ */
+Study.drawMark = (ctx, method, x, y, r, { filled = true, pale = false } = {}) => {
+  const star = (strokes, start) => {
+    for (let k = 0; k < strokes; ++k) {
+      const a = start + Math.PI * k / strokes, u = 1.2 * r * Math.cos(a), v = 1.2 * r * Math.sin(a);
+      ctx.moveTo(x - u, y - v);
+      ctx.lineTo(x + u, y + v);
+    }
+  };
+  const stars = [() => star(2, Math.PI / 4), () => star(2, 0), () => star(3, Math.PI / 2), () => star(4, 0)];
   const shapes = [
     () => ctx.arc(x, y, r, 0, 2 * Math.PI),
     () => ctx.rect(x - r * .85, y - r * .85, 1.7 * r, 1.7 * r),
@@ -16,11 +27,13 @@ Study.drawMark = (ctx, method, x, y, r, filled = true) => {
     }
     ctx.closePath();
   };
+  const peer = Object.keys(Study.PEERS).indexOf(method);
+  const ours = Study.methods.filter(name => !(name in Study.PEERS));
   ctx.beginPath();
-  shapes[Study.methods.indexOf(method) % shapes.length]();
-  ctx.lineWidth = Math.max(1, r / 4);
-  ctx.strokeStyle = ctx.fillStyle = Study.colorOf(method);
-  if (filled) ctx.fill();
+  peer >= 0 ? stars[peer % stars.length]() : shapes[ours.indexOf(method) % shapes.length]();
+  ctx.lineWidth = Math.max(1, peer >= 0 ? r / 1.8 : r / 4);
+  ctx.strokeStyle = ctx.fillStyle = Study.faded(Study.colorOf(method), pale ? .55 : 1);
+  if (filled && peer < 0) ctx.fill();
   ctx.stroke();
 };
 
@@ -35,15 +48,16 @@ const ticksBetween = (low, high, pixels) => {
   return out;
 };
 
-/** Ends of a logarithmic axis around the values. */
-const rangeAround = values => {
-  const low = Math.min(...values), high = Math.max(...values);
-  return [low / 1.25, high * 1.25];
+/** Ends of logarithmic axes around points. */
+Study.rangesOf = points => {
+  const around = values => [Math.min(...values) / 1.25, Math.max(...values) * 1.25];
+  return { x: around(points.map(p => p.x)), y: around(points.map(p => p.y)) };
 };
 
 /**
  * A plot in `place`. `points`: {x, y, label, method, below, row}. `settings`: {height, xLabel, yLabel, chosen, onPick(point),
- * say(point), tip(point), lines}. With `lines` the points of a method are joined instead of the front.
+ * say(point), tip(point), lines, range}. With `lines` the points of a method are joined instead of the front. `range`: of other axes
+ * than just around the points, {x: [low, high], y: [low, high]}.
  */
 Study.makePlot = (place, points, settings) => {
   place.replaceChildren();
@@ -88,13 +102,13 @@ Study.makePlot = (place, points, settings) => {
     points.forEach((p, k) => {
       const chosen = k === active || (settings.chosen && p.row === settings.chosen && p.label === settings.chosen.label);
       const r = (settings.small ? 3 : 4.5) * ratio * (chosen ? 1.7 : 1);
-      ctx.globalAlpha = settings.lines || front.includes(p) || chosen ? 1 : .55;
-      Study.drawMark(ctx, p.method, u.valToPos(p.x, "x", true), u.valToPos(p.y, "y", true), r, !p.below);
+      const pale = !(settings.lines || front.includes(p) || chosen);
+      Study.drawMark(ctx, p.method, u.valToPos(p.x, "x", true), u.valToPos(p.y, "y", true), r, { filled: !p.below, pale });
     });
     ctx.restore();
   };
 
-  const range = { x: rangeAround(points.map(p => p.x)), y: rangeAround(points.map(p => p.y)) };
+  const range = settings.range || Study.rangesOf(points);
   const u = new uPlot({
     width: place.clientWidth || 320, height: settings.height, legend: { show: false },
     cursor: { x: false, y: false, points: { show: false }, drag: { x: true, y: true, uni: 20 } },

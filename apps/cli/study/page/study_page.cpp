@@ -9,6 +9,7 @@
 
 #include "apps/cli/study/page/base64.h"
 #include "mesh/io/write_file.h"
+#include "penumbra/render/method.h"
 
 namespace penumbra::apps {
 namespace {
@@ -77,12 +78,15 @@ void replace_mark(std::string& page, const std::string& mark, const std::string&
 }  // namespace
 
 std::string make_page(const StudyRecord& record) {
+  json summaries = json::object();
+  for (const MethodInfo& info : methods()) summaries[info.name] = info.summary;
   std::string page(page_text("index.html")), styles, scripts;
   for (const char* name : kStyles) styles += std::string(page_text(name)) + "\n";
   for (const char* name : kScripts) scripts += "<script>\n" + std::string(page_text(name)) + "</script>\n";
   const json data = {{"about", record.about()},
                      {"cases", record.cases()},
                      {"rows", record.rows()},
+                     {"summaries", summaries},
                      {"pictures", pictures_of(record)}};
   replace_mark(page, "<!-- styles -->", "<style>\n" + styles + "</style>");
   replace_mark(page, "<!-- data -->",

@@ -4,49 +4,84 @@
 Study.ERROR_BUDGETS = [0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
 Study.TIME_BUDGETS = [5, 10, 20, 50, 100, 300, 1000];
 
-/** The fastest of the points within an error, or the most accurate within a time; null where there is none. */
+Study.TIE_PERCENT = 6;
+
+/** Whether p is as good as the best, as far as this machine can tell: nearly the same, or times whose quartiles beside the default overlap. */
+const isTied = (p, best, wanted) => {
+  if (p[wanted] <= best[wanted] * (1 + Study.TIE_PERCENT / 100)) return true;
+  const [a, b] = [p.row.over_default, best.row.over_default];
+  return wanted === "x" && !p.scenes && a && b && a.low <= b.high;
+};
+
+/** The fastest of the points within an error, or the most accurate within a time; null where there is none. Of those that are as good, within
+ * the ties, the first method with its defaults, if there is one. */
 Study.bestOf = (points, kind, budget) => {
   const [limit, wanted] = kind === "error" ? ["y", "x"] : ["x", "y"];
-  return points.filter(p => p[limit] <= budget).reduce((best, p) => best && best[wanted] <= p[wanted] ? best : p, null);
+  const within = points.filter(p => p[limit] <= budget);
+  if (within.length === 0) return null;
+  const best = within.reduce((a, b) => a[wanted] <= b[wanted] ? a : b);
+  const rank = p => 1000 * (p.label !== p.method) + Study.methods.indexOf(p.method);
+  return within.filter(p => isTied(p, best, wanted)).reduce((a, b) => rank(a) <= rank(b) ? a : b, best);
 };
 
 Study.chip = method => Study.element("span", { class: "chip", style: `background: ${Study.colorOf(method)}` });
 
-/** Which method is the fastest for some errors, counted over scenes. */
-Study.fillShort = (place, view) => {
-  const list = Study.element("ul");
-  for (const budget of [0.05, 0.01, 0.002]) {
-    const counts = new Map();
-    for (const seen of Study.scenes) {
-      const best = Study.bestOf(Study.pointsOf(seen.rows, view), "error", budget);
-      if (best) counts.set(best.method, [...(counts.get(best.method) || []), best.x]);
-    }
-    const all = Study.scenes.length, reached = [...counts.values()].flat().length;
-    const range = times => [...new Set([Study.ms(Math.min(...times)), Study.ms(Math.max(...times))])].join(" to ");
-    const item = Study.element("li", {}, `Within an error of ${budget} `);
-    if (counts.size > 0) item.append("the fastest is ");
-    [...counts.entries()].sort((a, b) => b[1].length - a[1].length).forEach(([method, times], k) => {
-      item.append(k > 0 ? ", " : "", Study.element("b", {}, method), ` on ${times.length} of ${all} ${all > 1 ? "scenes" : "scene"} (${range(times)})`);
-    });
-    if (reached < all) item.append(`${counts.size > 0 ? "; " : ""}none is known to be on ${all - reached} of ${all}`);
-    item.append(".");
-    list.append(item);
-  }
-  place.replaceChildren(list);
+/** One line: which method to use, and what it costs beside a frame without shadows. */
+const verdictOf = (points, view) => {
+  const budgets = [0.05, 0.01, 0.001], bests = budgets.map(budget => Study.bestOf(points, "error", budget));
+  const line = Study.element("p", {});
+  const tightest = bests.findLast(best => best);
+  if (!tightest) return line;
+  const loosest = budgets[bests.findIndex(best => best && best.label === tightest.label)];
+  const kept = budgets[bests.lastIndexOf(tightest)];
+  line.append("Down to an error of ", Study.element("b", {}, String(kept)), " the fastest is ", Study.element("b", {}, tightest.label),
+    `: ${Study.ms(tightest.x)} a frame`, loosest > kept ? `, and nothing is faster that keeps ${loosest}` : "", ". ");
+  const plain = points.find(p => p.label === "none");
+  if (plain) line.append(`Without any shadow it takes ${Study.ms(plain.x)}. `);
+  const won = Study.scenes.filter(seen => Study.bestOf(Study.pointsOf(seen.rows, view), "error", kept)?.method === tightest.method).length;
+  if (Study.scenes.length > 1) line.append(`${tightest.method} is the fastest within ${kept} on ${won} of ${Study.scenes.length} scenes.`);
+  return line;
 };
+
+/** What each method costs for some errors, over all scenes. */
+Study.fillShort = (place, view) => {
+  const points = Study.scenes.length > 1 ? Study.pointsOverAll(view) : Study.pointsOf(Study.scenes[0]?.rows || [], view);
+  const budgets = [0.05, 0.01, 0.001];
+  const bests = budgets.map(budget => Study.bestOf(points, "error", budget)?.x);
+  const lines = Study.methods.map(method => {
+    const own = points.filter(p => p.method === method);
+    return { method, points: own, times: budgets.map(budget => Study.bestOf(own, "error", budget)?.x ?? Infinity) };
+  }).filter(line => line.points.length > 0 && line.method !== "none");
+  const order = (a, b) => b.times.filter(isFinite).length - a.times.filter(isFinite).length || a.times.reduce((d, t, k) => d || (isFinite(t) ? t - b.times[k] : 0), 0);
+  const cell = (time, k) => Study.element("td", { class: `number${time <= bests[k] * (1 + Study.TIE_PERCENT / 100) ? " best" : ""}` },
+    isFinite(time) ? Study.ms(time) : "never");
+  const rows = lines.sort(order).map(({ method, times }) => Study.element("tr", {},
+    Study.element("th", { scope: "row" }, Study.chip(method), method), ...times.map(cell), Study.element("td", { class: "what" }, Study.summaryOf(method))));
+  const head = ["time for an error of", ...budgets.map(String), "how"];
+  place.replaceChildren(verdictOf(points, view), Study.element("div", { class: "scroll" }, Study.element("table", {},
+    Study.element("thead", {}, Study.element("tr", {}, ...head.map((text, k) => Study.element("th", { scope: "col", class: k > 0 && k < 4 ? "number" : "" }, text)))),
+    Study.element("tbody", {}, ...rows))));
+};
+
+/** A cell for each run of budgets that have the same choice. */
+const runsOf = choices => choices.reduce((runs, choice) => {
+  const last = runs.at(-1);
+  last && last.choice?.label === choice?.label ? ++last.length : runs.push({ choice, length: 1 });
+  return runs;
+}, []);
 
 Study.fillChoice = (place, view, kind, onPick) => {
   const budgets = kind === "error" ? Study.ERROR_BUDGETS : Study.TIME_BUDGETS;
   const head = Study.element("tr", {}, Study.element("th", {}, kind === "error" ? "error at most" : "time at most"),
     ...budgets.map(b => Study.element("th", { scope: "col" }, kind === "error" ? String(b) : Study.ms(b))));
-  const cell = (point) => {
-    if (!point) return Study.element("td", {}, "–");
+  const cell = ({ choice: point, length }) => {
+    if (!point) return Study.element("td", { colspan: length }, "–");
     const result = kind === "error" ? Study.ms(point.x) : Study.errorText(point);
-    return Study.element("td", {}, Study.element("button", { type: "button", onclick: () => onPick(point) },
+    return Study.element("td", { colspan: length }, Study.element("button", { type: "button", onclick: () => onPick(point) },
       Study.chip(point.method), point.method, Study.element("span", { class: "small" }, `${result}, ${Study.settingOf(point.label)}`)));
   };
   const row = (name, points) => Study.element("tr", {}, Study.element("th", { scope: "row" }, name),
-    ...budgets.map(b => cell(Study.bestOf(points, kind, b))));
+    ...runsOf(budgets.map(b => Study.bestOf(points, kind, b))).map(cell));
   const body = Study.scenes.map(seen => row(seen.scene, Study.pointsOf(seen.rows, view)));
   if (Study.scenes.length > 1) body.unshift(row("all scenes", Study.pointsOverAll(view)));
   place.replaceChildren(Study.element("table", {}, Study.element("thead", {}, head), Study.element("tbody", {}, ...body)));
@@ -57,12 +92,14 @@ Study.fillHolders = (place, view, onPick) => {
   const [from, to] = [5, 1000], at = ms => 100 * Math.log(ms / from) / Math.log(to / from);
   const line = points => {
     const front = Study.frontOf(points), bar = Study.element("div", { class: "bar-line" });
-    front.forEach((point, k) => {
-      const left = Math.max(0, at(point.x)), right = Math.min(100, k + 1 < front.length ? at(front[k + 1].x) : 100);
+    const starts = front.filter((point, k) => k === 0 || point.method !== front[k - 1].method);
+    starts.forEach((point, k) => {
+      const left = Math.max(0, at(point.x)), right = Math.min(100, k + 1 < starts.length ? at(starts[k + 1].x) : 100);
       if (right <= left) return;
-      const error = Study.errorText(point);
+      const last = front.filter(p => p.method === point.method && (k + 1 === starts.length || p.x < starts[k + 1].x)).at(-1);
+      const error = point === last ? Study.errorText(point) : `${Study.errorText(point)} to ${Study.errorText(last)}`;
       bar.append(Study.element("button", { type: "button", style: `left: ${left}%; width: ${right - left}%; background: ${Study.colorOf(point.method)}`,
-        title: `${point.label}: ${Study.ms(point.x)}, error ${error}`, onclick: () => onPick(point) }, `${point.method} ${error}`));
+        title: `${point.method}: from ${Study.ms(point.x)}, error ${error}`, onclick: () => onPick(last) }, right - left > 9 ? `${point.method} ${error}` : ""));
     });
     return bar;
   };
