@@ -5,13 +5,12 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "volumes/solids/carver.h"
+#include "volumes/solids/triangle_states.h"
+
 namespace penumbra::detail {
 namespace {
 
-/// The first pull, of an edge, and how many times as far each next one is.
-constexpr double kFirstPull = 1.0 / 200, kPullGrowth = 1.6;
-/// Where an edge begins that is crossed since a grid point changed sides: so far from that point.
-constexpr double kStart = 1.0 / 16;
 /// Of the grid's spacing: so far outside of triangles that cannot be proved points are tried, so that what they bulge between the
 /// points is in umbra as well.
 constexpr double kMargin = 0.05;
@@ -19,90 +18,9 @@ constexpr double kMargin = 0.05;
 constexpr double kApart = 0.18;
 constexpr int kFewestParts = 5;
 
-/// Moves what bad triangles touch.
-class Carver {
- public:
-  Carver(SolidGrid& grid, CrossedEdges& edges, bool inward) : grid_(grid), edges_(edges), inward_(inward) {}
-
-  void pull(std::uint32_t number) {
-    CrossedEdge& e = edges_.all()[number];
-    if (e.moved || e.in_wall) return;  // pulled already, or fixed
-    e.moved = true;
-    e.pull = e.pull > 0.0 ? kPullGrowth * e.pull : kFirstPull;
-    e.at += inward_ ? -e.pull : e.pull;
-    if (e.at <= 0.0) flip(edges_.inner_end(e));
-    if (e.at >= 1.0) flip(edges_.outer_end(e));
-  }
-  void flip(std::uint32_t vertex) { flipped_.push_back(vertex); }
-  /// The corners that are set in `which`. Where they are grid points of a cap, those change sides.
-  void move(const GridSurface& surface, const IndexedTriangle& t, unsigned which) {
-    const std::size_t edge_count = edges_.all().size();
-    for (int k = 0; k < 3; ++k) {
-      if (!(which >> k & 1)) continue;
-      if (t[k] < edge_count)
-        pull(t[k]);
-      else
-        flip(surface.cap_points[t[k] - edge_count]);
-    }
-  }
-
-  void finish() {
-    for (const std::uint32_t v : flipped_) grid_.set_inside(v, !inward_);
-    if (!flipped_.empty()) edges_.update(inward_ ? 1.0 - kStart : kStart, kStart / 2.0);
-    flipped_.clear();
-  }
-
- private:
-  SolidGrid& grid_;
-  CrossedEdges& edges_;
-  bool inward_;
-  std::vector<std::uint32_t> flipped_;
-};
-
-/// Of a surface, the triangles that have a corner which has moved. Of a penumbra those of caps and those in the light's plane need no
-/// judgment.
-std::vector<std::size_t> changed(const GridSurface& surface, const CrossedEdges& edges, bool with_caps) {
-  std::vector<std::size_t> out;
-  const std::size_t count = with_caps ? surface.triangles.size() : surface.inner_triangles;
-  const auto has_moved = [&](std::uint32_t v) { return v >= edges.all().size() || edges.all()[v].moved; };
-  const auto in_wall = [&](std::uint32_t v) { return v < edges.all().size() && edges.all()[v].in_wall; };
-  for (std::size_t i = 0; i < count; ++i)
-    if (std::ranges::all_of(surface.triangles[i], in_wall))
-      continue;
-    else if (std::ranges::any_of(surface.triangles[i], has_moved) ||
-             (i < surface.inner_triangles && has_moved(surface.fourth[i])))
-      out.push_back(i);
-  return out;
-}
-
-/// What was found of the points of a surface's triangles, for the next surface on the same grid.
-class KnownPoints {
- public:
-  /// Of triangles of a surface that follows. A point that had no fault hardly ever has one after it has moved to the safe side, so
-  /// it is tried again only with the proofs.
-  TrianglePoints::Known of(const GridSurface& surface, std::span<const std::size_t> which) const {
-    TrianglePoints::Known out(which.size(), 0);
-    for (std::size_t i = 0; i < which.size(); ++i) {
-      if (which[i] >= surface.inner_triangles) continue;
-      const auto at = std::ranges::lower_bound(names_, surface.names[which[i]]);
-      if (at != names_.end() && *at == surface.names[which[i]])
-        out[i] = known_[static_cast<std::size_t>(at - names_.begin())];
-    }
-    return out;
-  }
-  /// Triangles that were not looked at have no fault.
-  void remember(const GridSurface& surface, std::span<const std::size_t> which,
-                const TrianglePoints::Known& found) {
-    names_ = surface.names;
-    known_.assign(names_.size(), TrianglePoints::kWhole);
-    for (std::size_t i = 0; i < which.size(); ++i)
-      if (which[i] < names_.size()) known_[which[i]] = found[i];
-  }
-
- private:
-  std::vector<std::uint64_t> names_;
-  TrianglePoints::Known known_;
-};
+constexpr std::uint8_t kAllCorners = 7;
+/// Of proofs, which are tried again and again.
+constexpr HiddenProof::Effort kQuick{.depth = 0, .thorough = false};
 
 /// Positions moved outward along the mean normals of the triangles that meet there, but not out of the grid's box.
 std::vector<Vec3> grown(const GridSurface& surface, double by, const Bounds& box) {
@@ -121,46 +39,183 @@ std::vector<Vec3> grown(const GridSurface& surface, double by, const Bounds& box
   return out;
 }
 
+class UmbraCarving {
+ public:
+  UmbraCarving(SolidGrid& grid, CrossedEdges& edges, const TriangleJudge& judge, std::size_t& evaluations,
+               const Progress& progress)
+      : grid_(grid),
+        edges_(edges),
+        judge_(judge),
+        evaluations_(evaluations),
+        progress_(progress),
+        margin_(kMargin * std::max({grid.step().x, grid.step().y, grid.step().z})),
+        carver_(grid, edges, true) {}
+
+  /// Most faults show at few points, most of these on the surface. So triangles are pulled to where these have none before more points,
+  /// outside of the surface, are tried.
+  GridSurface run(const PointPattern& lattice) {
+    const PointPattern middles = middle_points();
+    carve_by({middles, false, 0.0});
+    states_.forget_points();
+    carve_by({middles, true, 1.0 / 3.0});
+    states_.forget_points();
+    while (carve_by({lattice, true, 2.0 / 3.0})) {
+    }
+    return std::move(surface_);
+  }
+
+ private:
+  struct Pass {
+    const PointPattern& points;
+    bool outside;  ///< of the surface they are tried
+    double done;   ///< progress
+  };
+
+  /// False where no triangle has a fault.
+  bool carve_by(const Pass& pass) {
+    if (!look_at_all(pass)) return false;
+    while (look_again(pass)) {
+    }
+    return true;
+  }
+
+  /// All triangles that have moved since this was done, or of whose points nothing is known: they are proved, or tried. Those that have a
+  /// fault are moved. False where none has.
+  bool look_at_all(const Pass& pass) {
+    begin();
+    const std::vector<std::size_t> which =
+        those([&](std::size_t i) { return has_moved(i, &CrossedEdge::doubtful) || states_.is_open(i); });
+    for (CrossedEdge& e : edges_.all()) e.moved = e.doubtful = false;
+    report_what_is_left(pass, which.size());
+    const std::vector<char> proved = judge_.prove({surface_.positions, triangles(which)}, kQuick);
+    // Bisection saw nothing at corners on the surface.
+    const std::uint8_t known = pass.outside ? 0 : kAllCorners;
+    for (std::size_t k = 0; k < which.size(); ++k) states_.set(which[k], proved[k] != 0, known);
+    return try_points(unproved(which, proved), pass);
+  }
+
+  /// Those that had a fault and have moved since: they are proved, or those of their points are tried that had one.
+  bool look_again(const Pass& pass) {
+    begin();
+    std::vector<std::size_t> which = those([&](std::size_t i) {
+      return has_moved(i, &CrossedEdge::moved) && states_.is_unproved(i) && states_.is_open(i);
+    });
+    for (CrossedEdge& e : edges_.all()) e.moved = false;
+    report_what_is_left(pass, which.size());
+    if (pass.outside) {  // else nearly all of them see light
+      const std::vector<char> proved = judge_.prove({surface_.positions, triangles(which)}, kQuick);
+      for (std::size_t k = 0; k < which.size(); ++k)
+        if (proved[k]) states_.set(which[k], true, 0);
+      which = unproved(which, proved);
+    }
+    return try_points(which, pass);
+  }
+
+  void begin() {
+    surface_ = grid_surface(edges_, Diagonals::kSmaller);
+    states_.carry_to(surface_);
+  }
+
+  bool has_moved(std::size_t i, bool CrossedEdge::*mark) const {
+    const std::vector<CrossedEdge>& all = edges_.all();
+    const auto is_marked = [&](std::uint32_t v) { return v < all.size() && all[v].*mark; };
+    return std::ranges::any_of(surface_.triangles[i], is_marked) ||
+           (i < surface_.inner_triangles && is_marked(surface_.fourth[i]));
+  }
+  template <class Is>
+  std::vector<std::size_t> those(const Is& is) const {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < surface_.triangles.size(); ++i)
+      if (is(i)) out.push_back(i);
+    return out;
+  }
+  static std::vector<std::size_t> unproved(const std::vector<std::size_t>& which,
+                                           const std::vector<char>& proved) {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < which.size(); ++k)
+      if (!proved[k]) out.push_back(which[k]);
+    return out;
+  }
+  std::vector<IndexedTriangle> triangles(const std::vector<std::size_t>& which) const {
+    std::vector<IndexedTriangle> out;
+    for (const std::size_t i : which) out.push_back(surface_.triangles[i]);
+    return out;
+  }
+  void report_what_is_left(const Pass& pass, std::size_t count) const {
+    const double left = static_cast<double>(count) / static_cast<double>(surface_.triangles.size() + 1);
+    report(progress_, pass.done + (1.0 - left) / 3.0);
+  }
+
+  bool try_points(const std::vector<std::size_t>& asked, const Pass& pass) {
+    TrianglePoints::Known known;
+    for (const std::size_t i : asked) known.push_back(states_.of(i));
+    const std::vector<IndexedTriangle> some = triangles(asked);
+    const std::vector<Vec3> outside =
+        pass.outside && !asked.empty() ? grown(surface_, margin_, grid_.box()) : std::vector<Vec3>{};
+    const TriangleJudge::Faults faults = judge_.try_points(
+        {pass.outside ? outside : surface_.positions, some}, pass.points, known, evaluations_);
+    bool any = false;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      states_.set_parts(asked[k], known[k]);
+      if (faults[k] == 0) continue;
+      any = true;
+      carver_.move(surface_, some[k], faults[k]);
+    }
+    carver_.finish();
+    return any;
+  }
+
+  SolidGrid& grid_;
+  CrossedEdges& edges_;
+  const TriangleJudge& judge_;
+  std::size_t& evaluations_;
+  const Progress& progress_;
+  double margin_;
+  Carver carver_;
+  GridSurface surface_;
+  TriangleStates states_;
+};
+
+/// Of a penumbra, the triangles that have a corner which has moved. Those of caps and those in the light's plane need no judgment.
+std::vector<std::size_t> moved(const GridSurface& surface, const CrossedEdges& edges) {
+  std::vector<std::size_t> out;
+  const auto has_moved = [&](std::uint32_t v) { return edges.all()[v].moved; };
+  const auto in_wall = [&](std::uint32_t v) { return edges.all()[v].in_wall; };
+  for (std::size_t i = 0; i < surface.inner_triangles; ++i)
+    if (!std::ranges::all_of(surface.triangles[i], in_wall) &&
+        (std::ranges::any_of(surface.triangles[i], has_moved) || has_moved(surface.fourth[i])))
+      out.push_back(i);
+  return out;
+}
+
+GridSurface carve_penumbra(SolidGrid& grid, CrossedEdges& edges, const TriangleJudge& judge,
+                           const Progress& progress) {
+  Carver carver(grid, edges, false);
+  for (;;) {
+    GridSurface surface = grid_surface(edges, Diagonals::kLarger);
+    const std::vector<std::size_t> which = moved(surface, edges);
+    std::vector<IndexedTriangle> triangles;
+    for (const std::size_t i : which) triangles.push_back(surface.triangles[i]);
+    const std::vector<char> proved = judge.prove({surface.positions, triangles}, kQuick);
+    report(progress,
+           1.0 - static_cast<double>(which.size()) / static_cast<double>(surface.triangles.size() + 1));
+    for (CrossedEdge& e : edges.all()) e.moved = false;
+    if (std::ranges::all_of(proved, [](char p) { return p != 0; })) return surface;
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+      if (!proved[k]) carver.move(surface, triangles[k], kAllCorners);
+    carver.finish();
+  }
+}
+
 }  // namespace
 
 GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& request,
                   const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress) {
-  const bool umbra = request.region == ShadowRegion::kUmbra;
+  if (request.region == ShadowRegion::kPenumbra) return carve_penumbra(grid, edges, judge, progress);
   const double spacing = std::max({grid.step().x, grid.step().y, grid.step().z});
   const int parts =
       std::max(kFewestParts, static_cast<int>(std::ceil(spacing / (kApart * request.tolerance))));
-  Carver carver(grid, edges, umbra);
-  KnownPoints points;
-  for (bool proofs = !umbra;;) {
-    GridSurface surface = grid_surface(edges, umbra ? Diagonals::kSmaller : Diagonals::kLarger);
-    const std::vector<std::size_t> which = changed(surface, edges, umbra);
-    std::vector<IndexedTriangle> triangles;
-    for (const std::size_t i : which) triangles.push_back(surface.triangles[i]);
-    const TriangleJudge::Surface part{surface.positions, triangles};
-    TriangleJudge::Faults faults;
-    if (proofs) {
-      faults =
-          judge.try_proofs(part, umbra ? grown(surface, kMargin * spacing, grid.box()) : surface.positions,
-                           parts, evaluations);
-    } else {
-      TrianglePoints::Known known = points.of(surface, which);
-      faults = judge.try_middles(part, known, evaluations);
-      points.remember(surface, which, known);
-    }
-    report(progress,
-           (proofs ? 0.5 : 0.0) + 0.5 * (1.0 - static_cast<double>(which.size()) /
-                                                   static_cast<double>(surface.triangles.size() + 1)));
-    for (CrossedEdge& e : edges.all()) e.moved = false;
-    const bool any = std::ranges::any_of(faults, [](std::uint8_t f) { return f != 0; });
-    if (!any && proofs) return surface;
-    for (std::size_t k = 0; k < triangles.size(); ++k)
-      if (faults[k] != 0) carver.move(surface, triangles[k], faults[k]);
-    carver.finish();
-    if (!any) {
-      proofs = true;
-      for (CrossedEdge& e : edges.all()) e.moved = true;
-    }
-  }
+  return UmbraCarving(grid, edges, judge, evaluations, progress).run(lattice_points(parts));
 }
 
 }  // namespace penumbra::detail

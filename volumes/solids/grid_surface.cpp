@@ -14,13 +14,21 @@ namespace {
 constexpr unsigned kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7},
                                         {0, 3, 2, 7}, {0, 6, 4, 7}, {0, 5, 1, 7}};
 
+/// Of names: triangles of grid points in the grid's boundary follow the tetrahedra.
+constexpr std::uint64_t kFirstCap = std::uint64_t{1} << 59;
+
 class Builder {
  public:
   Builder(const CrossedEdges& edges, Diagonals diagonals)
       : edges_(edges), grid_(edges.grid()), diagonals_(diagonals) {}
 
   GridSurface run() {
-    for (const CrossedEdge& e : edges_.all()) out_.positions.push_back(edges_.position(e));
+    const std::vector<CrossedEdge>& crossed = edges_.all();
+    out_.positions.resize(crossed.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, crossed.size(), 1024), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i)
+        out_.positions[i] = edges_.position(crossed[i]);
+    });
     const std::vector<std::uint32_t>& blocks = edges_.active_blocks();
     std::vector<Part> parts(blocks.size());
     tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
@@ -106,40 +114,68 @@ class Builder {
 
   void add_caps() {
     const GridIndex& n = grid_.counts();
+    std::uint64_t squares = 0;  // so far
     for (int axis = 0; axis < 3; ++axis) {
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      for (const bool high : {false, true})
-        for (std::int32_t j = 0; j + 1 < n[v]; ++j)
+      const unsigned du = 1u << u, dv = 1u << v;
+      for (const bool high : {false, true}) {
+        const auto corner = [&](std::int32_t i, std::int32_t j) {
+          GridIndex at;
+          at[axis] = high ? n[axis] - 1 : 0;
+          at[u] = i;
+          at[v] = j;
+          return grid_.vertex(at);
+        };
+        std::vector<std::vector<std::int32_t>> some(static_cast<std::size_t>(n[v] - 1));
+        tbb::parallel_for(0, n[v] - 1, [&](std::int32_t j) {
+          const auto is_inside = [&](std::int32_t i) {
+            return grid_.is_inside(corner(i, j)) || grid_.is_inside(corner(i, j + 1));
+          };
+          bool before = is_inside(0);
           for (std::int32_t i = 0; i + 1 < n[u]; ++i) {
-            GridIndex at;
-            at[axis] = high ? n[axis] - 1 : 0;
-            at[u] = i;
-            at[v] = j;
-            add_square(grid_.vertex(at), 1u << u, 1u << v, high);
+            const bool next = is_inside(i + 1);
+            if (before || next) some[static_cast<std::size_t>(j)].push_back(i);
+            before = next;
           }
+        });
+        for (const std::vector<std::int32_t>& row : some) {
+          const auto j = static_cast<std::int32_t>(&row - some.data());
+          for (const std::int32_t i : row)
+            add_square(corner(i, j), du, dv, high, squares + static_cast<std::uint64_t>(i));
+          squares += static_cast<std::uint64_t>(n[u] - 1);
+        }
+      }
     }
   }
 
-  void add_square(std::uint32_t corner, unsigned u, unsigned v, bool turned) {
+  void add_square(std::uint32_t corner, unsigned u, unsigned v, bool turned, std::uint64_t number) {
     const unsigned a[2][3] = {{0, u, u | v}, {0, u | v, v}};
+    std::uint64_t name = kFirstCap + 2 * number;
     for (const auto& t : a)
       add_cap(corner,
-              turned ? std::array<unsigned, 3>{t[0], t[1], t[2]} : std::array<unsigned, 3>{t[0], t[2], t[1]});
+              turned ? std::array<unsigned, 3>{t[0], t[1], t[2]} : std::array<unsigned, 3>{t[0], t[2], t[1]},
+              name++);
   }
 
   /// The part of a triangle of grid points that is inside.
-  void add_cap(std::uint32_t corner, const std::array<unsigned, 3>& t) {
+  void add_cap(std::uint32_t corner, const std::array<unsigned, 3>& t, std::uint64_t number) {
     std::array<std::uint32_t, 4> polygon;
     std::size_t count = 0;
+    std::uint64_t mask = 0;
     for (int k = 0; k < 3; ++k) {
       const unsigned p = t[k], q = t[(k + 1) % 3];
       const std::uint32_t here = grid_.beyond(corner, p), next = grid_.beyond(corner, q);
-      if (grid_.is_inside(here)) polygon[count++] = cap_point(here);
+      if (grid_.is_inside(here)) {
+        polygon[count++] = cap_point(here);
+        mask |= std::uint64_t{1} << k;
+      }
       if (grid_.is_inside(here) != grid_.is_inside(next))
         polygon[count++] = edge(grid_.beyond(corner, p & q), p ^ q);
     }
-    for (std::size_t k = 2; k < count; ++k)
+    for (std::size_t k = 2; k < count; ++k) {
       out_.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
+      out_.names.push_back((number << 3 | mask) << 1 | (k - 2));
+    }
   }
 
   std::uint32_t cap_point(std::uint32_t vertex) {

@@ -21,8 +21,8 @@ struct CrossedEdge {
   bool from_is_inside;
   /// It lies in the wall, and stays there.
   bool in_wall = false;
-  /// It has moved since its triangles were looked at.
-  bool moved = true;
+  /// It has moved since its triangles were looked at, and since they were last looked at from scratch.
+  bool moved = true, doubtful = true;
   /// Of the edge, from its inner end on, in (0, 1).
   double at = 0.5;
   /// By which the next pull moves it.
@@ -36,8 +36,8 @@ struct GridSurface {
   std::vector<IndexedTriangle> triangles;
   /// One a triangle that lies inside of the grid: a vertex on which its shape depends as well as on its corners.
   std::vector<std::uint32_t> fourth;
-  /// One a triangle that lies inside of the grid, ascending. Triangles of two surfaces on one grid that have the same name have their
-  /// corners on the same edges.
+  /// One a triangle, ascending. Triangles of two surfaces on one grid that have the same name have their corners on the same edges and
+  /// grid points.
   std::vector<std::uint64_t> names;
   /// The first so many lie inside of the grid, the rest in caps.
   std::size_t inner_triangles = 0;

@@ -26,7 +26,7 @@ constexpr double kNearWall =
     4e-3;  ///< of the tolerance: grid points so near to the light's plane are outside
 constexpr double kFirstLook = 4.0;     ///< of the tolerance: the grid that tells volume and area
 constexpr double kSimplified = 0.075;  ///< of the spacing: so far may simplification move a point
-constexpr int kProofDepth = 1;         ///< so often are triangles divided where they cannot be proved whole
+constexpr HiddenProof::Effort kProof{.depth = 1, .thorough = true};  ///< of what is left at the end
 
 class Mesher {
  public:
@@ -266,7 +266,7 @@ class Mesher {
       triangles.push_back(out_.triangles[i]);
     }
     const std::vector<char> proved =
-        TriangleJudge(request_, tree_).prove({out_.positions, triangles}, kProofDepth);
+        TriangleJudge(request_, tree_).prove({out_.positions, triangles}, kProof);
     for (std::size_t i = 0; i < which.size(); ++i) out_.is_proved[which[i]] = proved[i];
     out_.to_prove = triangles.size();
     out_.proved = static_cast<std::size_t>(std::count(proved.begin(), proved.end(), char{1}));

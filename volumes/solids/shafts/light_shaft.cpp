@@ -135,6 +135,14 @@ std::uint32_t LightShaft::sides_beyond(const Vec3& p) const {
   return out;
 }
 
+bool LightShaft::holds(const Vec3& p) const {
+  const Vec3 from = p - origin_;
+  const double share = glm::dot(from, axis_) / glm::dot(end_, axis_);
+  if (!(share >= 0.0 && share <= 1.0)) return false;
+  const Vec3 across = from - share * end_;
+  return glm::dot(across, across) <= share * radius_ * share * radius_;
+}
+
 bool LightShaft::base_misses(const Vec3& a, const Vec3& b, const Vec3& c) const {
   for (int k = 0; k < 3; ++k)
     if (std::max({a[k], b[k], c[k]}) < base_low_[k] || std::min({a[k], b[k], c[k]}) > base_high_[k])

@@ -34,6 +34,8 @@ class LightShaft {
   /// As bits, those of some planes that bound the shaft beyond which a point lies. What has points that share a bit misses the
   /// shaft.
   std::uint32_t sides_beyond(const Vec3& p) const;
+  /// True only where the point lies in the shaft of the first of T's points, but for rounding.
+  bool holds(const Vec3& p) const;
   /// The same as `misses` for T alone instead of its shaft.
   bool base_misses(const Vec3& a, const Vec3& b, const Vec3& c) const;
 
