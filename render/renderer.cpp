@@ -1,5 +1,7 @@
 #include "penumbra/render/renderer.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <mutex>
 #include <optional>
@@ -8,12 +10,12 @@
 #include "penumbra/mesh/stage_clock.h"
 #include "penumbra/render/plan/plan.h"
 #include "render/antialias.h"
+#include "render/camera_views.h"
 #include "render/casters_impl.h"
 #include "render/d_buffer/d_buffer_method.h"
 #include "render/light/valid_light.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
 #include "render/plan/auto_method.h"
-#include "render/rays/camera_rays.h"
 #include "render/receivers/unlit.h"
 #include "render/scene/scene_limits.h"
 #include "render/shading/glass.h"
@@ -62,6 +64,28 @@ void require_names(const std::vector<Light>& lights) {
   }
 }
 
+/// A result that holds nothing but an image and a surface to be used again.
+RenderResult recycled(RenderResult result) {
+  RenderResult out;
+  out.image.channels = std::move(result.image.channels);
+  out.surface = std::move(result.surface);
+  return out;
+}
+
+bool is_same(const SurfaceBuffer& a, const SurfaceBuffer& b) {
+  return a.revision != 0 && a.revision == b.revision && a.size() == b.size();
+}
+
+/// On all threads: taking the memory takes as long as filling it.
+void copy(const SurfaceBuffer& from, const detail::Threads& threads, SurfaceBuffer& to) {
+  to.revision = 0;  // until all of it is there
+  threads->execute([&] {
+    tbb::parallel_invoke([&] { to.position = from.position; }, [&] { to.normal = from.normal; },
+                         [&] { to.object = from.object, to.face = from.face; });
+  });
+  to.width = from.width, to.height = from.height, to.revision = from.revision;
+}
+
 }  // namespace
 
 void register_drawing_methods() {
@@ -79,8 +103,8 @@ struct Renderer::State {
 
   /// Throws what Renderer::render does for options, lights and places.
   void require_good(const MethodInfo& info, const RenderOptions& options) const;
-  /// What the camera sees; that of the picture before where nothing has changed that it depends on.
-  const SurfaceBuffer& look(const RenderOptions& options, const Progress& progress);
+  /// What the camera sees; what an earlier picture saw where nothing has changed that it depends on.
+  const SurfaceBuffer& look(const RenderOptions& options, const PointInPixel& at, const Progress& progress);
   /// What the surface sees of every light. Adds the time of stages to `stages`.
   std::vector<MethodFrame> see(const MethodInfo& info, const OptionValues& values,
                                const SurfaceBuffer& surface, bool keep_textures, const Progress& progress,
@@ -94,12 +118,7 @@ struct Renderer::State {
 
   Scene scene;
   Casters casters;
-  /// What the camera saw last.
-  struct Seen {
-    Camera camera;
-    SurfaceBuffer surface;
-  };
-  std::optional<Seen> seen;
+  detail::CameraViews views;
   /// Made when they are first needed.
   std::optional<GlassRays> glass;
 };
@@ -112,13 +131,9 @@ void Renderer::State::add_glass(const SurfaceBuffer& surface, const PointInPixel
                     channels_of(picture));
 }
 
-const SurfaceBuffer& Renderer::State::look(const RenderOptions& options, const Progress& progress) {
-  const bool same = seen && seen->camera == scene.camera && seen->surface.width == options.width &&
-                    seen->surface.height == options.height;
-  if (!same)
-    seen = Seen{scene.camera, make_surface_buffer(scene, casters.impl().rays(), options.width, options.height,
-                                                  {}, progress)};
-  return seen->surface;
+const SurfaceBuffer& Renderer::State::look(const RenderOptions& options, const PointInPixel& at,
+                                           const Progress& progress) {
+  return views.see(scene, casters.impl().rays(), options.width, options.height, at, progress);
 }
 
 void Renderer::State::require_good(const MethodInfo& info, const RenderOptions& options) const {
@@ -176,8 +191,7 @@ void Renderer::State::add_samples(const MethodInfo& info, const RenderOptions& o
     const auto begin = static_cast<double>(i), count = static_cast<double>(points.size());
     const Progress frame = part_of(progress, begin / count, (begin + 1.0) / count);
     StageClock clock;
-    const SurfaceBuffer surface = make_surface_buffer(scene, casters.impl().rays(), options.width,
-                                                      options.height, points[i], part_of(frame, 0.0, kLook));
+    const SurfaceBuffer& surface = look(options, points[i], part_of(frame, 0.0, kLook));
     clock.finish("surface_buffer");
     const std::vector<MethodFrame> frames =
         see(info, values, surface, false, part_of(frame, kLook, 1.0), out.stages);
@@ -222,26 +236,27 @@ int Renderer::threads() const {
 }
 
 void Renderer::forget() {
-  state_->seen.reset();
+  state_->views.forget();
   state_->casters.impl().forget();
 }
 
 Image Renderer::shade_again(const std::vector<std::vector<float>>& visibility) const {
-  if (!state_->seen || visibility.size() != state_->scene.lights.size())
+  const SurfaceBuffer* surface = state_->views.last();
+  if (!surface || visibility.size() != state_->scene.lights.size())
     throw UsageError("shading needs a picture and the visibility of each of its lights");
   std::vector<LightVisibility> lights;
   for (const std::vector<float>& values : visibility) {
-    if (values.size() != state_->seen->surface.size())
+    if (values.size() != surface->size())
       throw UsageError("shading needs as many visibilities as the picture has pixels");
     lights.push_back({values, {}});
   }
-  return shade(state_->scene, state_->seen->surface, lights, state_->casters.impl().threads);
+  return shade(state_->scene, *surface, lights, state_->casters.impl().threads);
 }
 
 std::vector<LightPlan> Renderer::plan(const PlanRequest& request, int width, int height) {
   const RenderOptions options{.method = "auto", .width = width, .height = height};
   state_->require_good(method_named(options.method), options);
-  const SurfaceBuffer& surface = state_->look(options, {});
+  const SurfaceBuffer& surface = state_->look(options, {}, {});
   std::vector<LightPlan> plans;
   for (const Light& light : state_->scene.lights)
     plans.push_back(plan_light(state_->casters.impl().scene, state_->casters.impl().rays(), light.shape,
@@ -250,8 +265,14 @@ std::vector<LightPlan> Renderer::plan(const PlanRequest& request, int width, int
 }
 
 RenderResult Renderer::render(const RenderOptions& options) {
-  const MethodInfo& info = method_named(options.method);
   RenderResult out;
+  render(options, out);
+  return out;
+}
+
+void Renderer::render(const RenderOptions& options, RenderResult& out) {
+  const MethodInfo& info = method_named(options.method);
+  out = recycled(std::move(out));
   out.method = info.name;
   require_known(options.options);
   out.options = completed(info.options, options.options);
@@ -261,7 +282,8 @@ RenderResult Renderer::render(const RenderOptions& options) {
   StageClock clock;  // one-time set-up is no stage
   // The picture of pixels' centers, and then one for each sample.
   const double first = options.antialias > 1 ? 1.0 / (1.0 + options.antialias * options.antialias) : 1.0;
-  const SurfaceBuffer& surface = state_->look(options, part_of(options.progress, 0.0, kLook * first));
+  const std::uint64_t rays_before = state_->views.rays_sent();
+  const SurfaceBuffer& surface = state_->look(options, {}, part_of(options.progress, 0.0, kLook * first));
   clock.finish("surface_buffer");
   out.stages = clock.stages();
   report(options.progress, kLook * first);
@@ -269,12 +291,15 @@ RenderResult Renderer::render(const RenderOptions& options) {
                            part_of(options.progress, kLook * first, first), out.stages);
   report(options.progress, first);
   StageClock shading;
-  out.image = shade(state_->scene, surface, seen_of(out.lights), state_->casters.impl().threads);
+  const detail::Threads& threads = state_->casters.impl().threads;
+  const bool has_surface = is_same(out.surface, surface);
+  shade(state_->scene, surface, seen_of(out.lights), threads, has_surface, out.image);
   state_->add_glass(surface, {}, out.image);
   shading.finish("shading");
   add_to(out.stages, shading.stages());
-  out.surface = surface;
+  if (!has_surface) copy(surface, threads, out.surface);
   if (options.antialias > 1) state_->add_samples(info, options, part_of(options.progress, first, 1.0), out);
+  out.camera_rays = state_->views.rays_sent() - rays_before;
   report(options.progress, 1.0);
   for (const StageTime& stage : out.stages) out.frame_ms += stage.milliseconds;
   out.setup = {{"ray_scene", rays.build_ms()}};
@@ -285,7 +310,6 @@ RenderResult Renderer::render(const RenderOptions& options) {
       out.warnings.push_back(std::move(*warning));
   }
   for (const SceneObject& object : state_->scene.objects) out.scene_faces += object.mesh.triangles().size();
-  return out;
 }
 
 RenderResult render(const Scene& scene, const RenderOptions& options, int threads, int warm_up) {

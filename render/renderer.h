@@ -5,6 +5,7 @@
 //   shading                     visibility → RGB, summed over lights, the same code for every method
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -70,13 +71,15 @@ struct RenderResult {
   /// One-time set-up so far.
   StageTimes setup;
   std::size_t scene_faces = 0;
+  /// Rays that the camera sent for this picture: none where it saw the same before.
+  std::uint64_t camera_rays = 0;
   /// One line for each light of which nothing that is seen gets any: why that is so.
   std::vector<std::string> warnings;
 };
 
 /// Draws pictures of a scene that it owns. What has changed since the picture before it finds out itself: the
-/// camera, a light, the size, the method. What has not is kept (the surface buffer, classes and silhouettes,
-/// hierarchies, OpenGL contexts) and takes no time again.
+/// camera, a light, the size, the method. What has not is kept (what the camera sees, groups of receivers, classes and
+/// silhouettes, hierarchies, OpenGL contexts) and takes no time again: docs/performance.md, "Between frames".
 ///
 /// To be used by one thread at a time, and destroyed by the thread that drew (OpenGL contexts are that
 /// thread's).
@@ -96,6 +99,10 @@ class Renderer {
   /// method does not take, a side outside 1 to 65,536, an antialias outside 1 to kMostAntialias; SceneError where something is too far from the casters
   /// (docs/scene-file.md); SystemError where OpenGL does not start; Cancelled.
   RenderResult render(const RenderOptions& options);
+  /// The same into the result of an earlier call, whose memory is used again: taking new memory costs a good part of a
+  /// simple frame. `out` is as that call left it, or new: what it holds of the surface is not written
+  /// again where it is the same. After an exception it is fit for another call and for nothing else.
+  void render(const RenderOptions& options, RenderResult& out);
   /// What the method `auto` would do for each light of a picture of that size, in their order; nothing is drawn. Throws what
   /// render() does for options, lights and places.
   std::vector<LightPlan> plan(const PlanRequest& request, int width, int height);

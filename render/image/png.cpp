@@ -11,17 +11,14 @@
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/image/image.h"
+#include "render/image/srgb.h"
 
 namespace penumbra {
 namespace {
 
-// IEC 61966-2-1, linear [0, 1] to 8 bits.
 unsigned char to_srgb(float linear) {
-  if (!(linear > 0.0f)) return 0;  // NaN too
-  if (linear >= 1.0f) return 255;
-  const float encoded =
-      linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-  return static_cast<unsigned char>(std::lround(255.0f * encoded));
+  static const detail::SrgbTable table;
+  return table(linear);
 }
 
 float to_linear(unsigned char srgb) {

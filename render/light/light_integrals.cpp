@@ -10,15 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "render/light/disk_area.h"
 #include "render/light/rectangle_area.h"
+#include "render/light/whole_disk.h"
 
 namespace penumbra {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The rim's share between two angles, from < to.
 double rim_part(const Vec3& x, const Vec3& n, double rho, double from, double to) {
@@ -44,17 +42,6 @@ double rim_part(const Vec3& x, const Vec3& n, double rho, double from, double to
   return -0.5 * rho * integral;
 }
 
-/// The whole rim: what `rim_part` comes to over a full turn, without its angles.
-double whole_rim(const Vec3& x, const Vec3& n, double rho) {
-  const double away2 = x.x * x.x + x.y * x.y, away = std::sqrt(away2);
-  const double e = away2 + x.z * x.z + rho * rho, k = 2.0 * rho * away;
-  const double nearer = (away - rho) * (away - rho) + x.z * x.z,
-               farther = (away + rho) * (away + rho) + x.z * x.z;
-  const double s = std::sqrt(nearer * farther), q = k / (e + s);
-  const double radial = away > 0.0 ? (n.x * x.x + n.y * x.y) / away : n.x;
-  return -kPi * rho * (n.z * rho + q * (x.z * radial - n.z * away)) / s;
-}
-
 double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
   if (x.z <= 0.0) return 0.0;
   if (rho == 0.0) {
@@ -63,7 +50,7 @@ double factor_in_frame(const Vec3& x, const Vec3& n, double rho) {
   }
   const Chord horizon = chord_of_plane(n, x, rho);
   if (!(horizon.delta > -1.0)) return 0.0;
-  if (horizon.delta >= 1.0) return std::max(0.0, whole_rim(x, n, rho));
+  if (horizon.delta >= 1.0) return std::max(0.0, detail::whole_rim(x.x, x.y, x.z, n.x, n.y, n.z, rho));
   const double middle = std::atan2(horizon.normal.y, horizon.normal.x), reach = std::acos(-horizon.delta);
   const auto rim = [&](double angle) { return Vec3{rho * std::cos(angle), rho * std::sin(angle), 0.0} - x; };
   return std::max(0.0, rim_part(x, n, rho, middle - reach, middle + reach) +
@@ -84,7 +71,7 @@ double distant_factor(const Vec3& n, double rho) {
   if (rho == 0.0) return std::max(0.0, -n.z);
   const double delta = chord_of_plane(n, {0.0, 0.0, 1.0}, rho).delta, all = 1.0 + rho * rho;
   if (!(delta > -1.0)) return 0.0;
-  if (delta >= 1.0) return -n.z * (kPi * rho * rho / all);
+  if (delta >= 1.0) return detail::whole_distant(n.z, rho);
   const double c2 = 1.0 + rho * rho * delta * delta, c = std::sqrt(c2);
   const double t = rho * std::sqrt((1.0 - delta) * (1.0 + delta)) / c;
   const double arc = delta * (rho * rho * rho * std::acos(-delta) / c + t * rho * rho * delta) / all;

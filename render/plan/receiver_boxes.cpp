@@ -1,7 +1,5 @@
 #include "render/plan/receiver_boxes.h"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 
 #include "render/support/kd_order.h"
@@ -15,37 +13,20 @@ struct PlacedGroup {
   std::uint32_t group = 0;
 };
 
-ReceiverBox box_of(const Receivers& receivers, const ReceiverGroups& groups, std::size_t group) {
-  ReceiverBox box;
-  groups.for_each(group, [&](std::uint32_t index) {
-    if (!receivers.is_present(index)) return;
-    box.points.add(receivers.points[index]);
-    if (receivers.has_normals()) box.normals.add(receivers.normals[index]);
-    ++box.count;
-  });
-  return box;
-}
-
 }  // namespace
 
-void ReceiverBox::add(const ReceiverBox& other) {
-  if (other.count == 0) return;
-  points.add(other.points);
-  if (!other.normals.empty()) normals.add(other.normals);
-  count += other.count;
-}
+ReceiverBoxes::ReceiverBoxes(const Receivers& receivers) : ReceiverBoxes(BoxedGroups(receivers)) {}
 
-ReceiverBoxes::ReceiverBoxes(const Receivers& receivers) : groups_(receivers) {
-  std::vector<PlacedGroup> placed(groups_.count());
+ReceiverBoxes::ReceiverBoxes(const BoxedGroups& boxed) : groups_(boxed.groups) {
+  const std::vector<ReceiverBox>& boxes = boxed.boxes;
+  std::vector<PlacedGroup> placed(boxes.size());
   if (placed.empty()) return;
-  std::vector<ReceiverBox> boxes(placed.size());
-  tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {
+  for (std::size_t i = 0; i < placed.size(); ++i) {
     placed[i].group = static_cast<std::uint32_t>(i);
-    boxes[i] = box_of(receivers, groups_, i);
-    if (boxes[i].count == 0) return;
+    if (boxes[i].count == 0) continue;
     const Vec3 middle = boxes[i].points.center();
     placed[i].at = {middle.x, middle.y, middle.z};
-  });
+  }
   order_by_place<ByNumberThenAll>(placed.data(), placed.data() + placed.size(), kFanOut);
   std::vector<ReceiverBox> leaves;
   leaves.reserve(placed.size());

@@ -4,26 +4,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/receivers/receiver_groups.h"
+#include "render/receivers/receiver_box.h"
 
 namespace penumbra::detail {
-
-/// Of receivers that lie close together.
-struct ReceiverBox {
-  Bounds points;
-  /// The box of their normals. Empty where there are none.
-  Bounds normals;
-  /// How many are present.
-  std::size_t count = 0;
-
-  void add(const ReceiverBox& other);
-};
 
 /// A tree with eight children a node over groups of up to 64 receivers. Refers to nothing.
 class ReceiverBoxes {
  public:
   /// Cost O(receivers), on the calling arena's threads.
   explicit ReceiverBoxes(const Receivers& receivers);
+  explicit ReceiverBoxes(const BoxedGroups& boxed);
 
   std::size_t present() const { return levels_.empty() ? 0 : levels_.back().front().count; }
 

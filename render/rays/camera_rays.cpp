@@ -1,10 +1,13 @@
 #include "render/rays/camera_rays.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "mesh/vectors.h"
 #include "render/rays/each_receiver.h"
@@ -95,22 +98,29 @@ void place(const Vec3& origin, const Vec3& direction, const Seen& seen, std::siz
   out.face[pixel] = seen.face;
 }
 
+void place_none(std::size_t pixel, SurfaceBuffer& out) {
+  out.position[pixel] = out.normal[pixel] = Vec3(0.0);
+  out.object[pixel] = -1;
+  out.face[pixel] = 0;
+}
+
 }  // namespace
 
 SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height,
-                                  const PointInPixel& at, const Progress& progress) {
+                                  const PointInPixel& at, const Progress& progress, SurfaceBuffer memory) {
   if (width <= 0 || height <= 0 || width > 65536 || height > 65536)
     throw UsageError("image size " + std::to_string(width) + "x" + std::to_string(height) +
                      " is outside 1x1 to 65536x65536");
-  SurfaceBuffer out;
+  SurfaceBuffer out = std::move(memory);
   out.width = width;
   out.height = height;
   out.revision = new_revision();
   const std::size_t n = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  out.object.assign(n, -1);
-  out.face.assign(n, 0);
-  out.position.assign(n, Vec3{0.0});
-  out.normal.assign(n, Vec3{0.0});
+  // The system clears memory that it gives away, which takes as long as filling it.
+  rays.arena().execute([&] {
+    tbb::parallel_invoke([&] { out.position.resize(n); }, [&] { out.normal.resize(n); },
+                         [&] { out.object.resize(n), out.face.resize(n); });
+  });
   const PixelRays pixels(scene.camera, width, height);
   detail::for_each_block(rays.arena(), static_cast<std::size_t>(height), progress, [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -122,10 +132,12 @@ SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int 
     for (int x0 = 0; x0 < width; x0 += kLanes) {
       const int count = std::min(kLanes, width - x0);
       trace_row_part(rays, pixels, at, x0, y, count, packet, of_group, seen);
-      for (int i = 0; i < count; ++i)
+      const std::size_t first = row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x0);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
         if (seen[i].geometry)
-          place(pixels.origin, packet.way(i), seen[i],
-                row * static_cast<std::size_t>(width) + static_cast<std::size_t>(x0 + i), out);
+          place(pixels.origin, packet.way(i), seen[i], first + i, out);
+        else
+          place_none(first + i, out);
     }
   });
   return out;

@@ -17,8 +17,9 @@ struct PointInPixel {
 };
 
 /// Has a revision of its own. Cost O(pixels · log faces), on all threads of `rays`; deterministic. Throws
-/// UsageError for a side of 0 or above 65,536 pixels, Cancelled.
+/// UsageError for a side of 0 or above 65,536 pixels, Cancelled. `memory`: a buffer whose memory is used again.
 SurfaceBuffer make_surface_buffer(const Scene& scene, const RayScene& rays, int width, int height,
-                                  const PointInPixel& at = {}, const Progress& progress = {});
+                                  const PointInPixel& at = {}, const Progress& progress = {},
+                                  SurfaceBuffer memory = {});
 
 }  // namespace penumbra

@@ -45,6 +45,11 @@ struct Colors {
 Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
             const detail::Threads& threads);
 
+/// The same into an image, whose memory is used again: one that an earlier call for the same scene and as many pixels made.
+/// `has_surface`: it was for the same surface; object, P and N then stay as they are.
+void shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
+           const detail::Threads& threads, bool has_surface, Image& image);
+
 /// What shade() gives for R G B A. Regions are not looked at.
 Colors shade_colors(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
                     const detail::Threads& threads);

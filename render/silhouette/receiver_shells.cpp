@@ -1,7 +1,5 @@
 #include "render/silhouette/receiver_shells.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -31,26 +29,15 @@ std::size_t shell_of(double distance, double radius) {
 
 }  // namespace
 
-std::vector<ReceiverShell> receiver_shells(const Receivers& receivers, const ReceiverGroups& groups,
-                                           const Bounds& casters) {
-  constexpr std::size_t kGroupsPerTask = 64;
-  std::vector<Bounds> boxes(groups.count());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, boxes.size(), kGroupsPerTask), [&](const auto& range) {
-    for (std::size_t g = range.begin(); g < range.end(); ++g) {
-      Bounds box;
-      groups.for_each(g, [&](std::uint32_t i) {
-        if (receivers.is_present(i)) box.add(receivers.points[i]);
-      });
-      boxes[g] = box;
-    }
-  });
+std::vector<ReceiverShell> receiver_shells(const BoxedGroups& groups, const Bounds& casters) {
   std::vector<ReceiverShell> shells(kMostShells);
-  for (std::uint32_t g = 0; g < boxes.size(); ++g) {
-    if (boxes[g].empty()) continue;
+  for (std::uint32_t g = 0; g < groups.boxes.size(); ++g) {
+    const Bounds& box = groups.boxes[g].points;
+    if (box.empty()) continue;
     ReceiverShell& shell =
-        shells[casters.empty() ? 0 : shell_of(distance_to(boxes[g], casters.center()), casters.radius())];
+        shells[casters.empty() ? 0 : shell_of(distance_to(box, casters.center()), casters.radius())];
     shell.groups.push_back(g);
-    shell.asked_about.add(boxes[g]);
+    shell.asked_about.add(box);
   }
   std::erase_if(shells, [](const ReceiverShell& s) { return s.groups.empty(); });
   for (ReceiverShell& shell : shells) shell.asked_about.add(casters);

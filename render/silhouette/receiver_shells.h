@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/receivers/receiver_groups.h"
+#include "render/receivers/receiver_box.h"
 
 namespace penumbra::detail {
 
@@ -20,8 +20,7 @@ struct ReceiverShell {
 };
 
 /// The innermost first; shells without receivers are left out, and so are groups without. Without casters there is one
-/// shell. Cost O(receivers), on the calling arena's threads.
-std::vector<ReceiverShell> receiver_shells(const Receivers& receivers, const ReceiverGroups& groups,
-                                           const Bounds& casters);
+/// shell. Cost O(groups).
+std::vector<ReceiverShell> receiver_shells(const BoxedGroups& groups, const Bounds& casters);
 
 }  // namespace penumbra::detail

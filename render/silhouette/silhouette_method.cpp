@@ -35,6 +35,7 @@ Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
           {"rays", c.rays},
           {"second_rays", c.second_rays},
           {"fallback", c.fallback},
+          {"groupings", c.groupings},
           {"bytes", c.bytes},
           {"hierarchy_bytes", c.hierarchy_bytes},
           {"open", open}};
@@ -65,6 +66,7 @@ class BySilhouettes : public Method {
     out.setup = {{"edge_hierarchy", hierarchies_.milliseconds()}};
     return out;
   }
+  void forget() override { hierarchies_.forget_receivers(); }
 
  protected:
   virtual void see(const MethodInput& input, detail::EdgeHierarchies& hierarchies,

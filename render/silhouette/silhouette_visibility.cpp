@@ -10,6 +10,7 @@
 #include "render/rays/reference.h"
 #include "render/receivers/occluding_casters.h"
 #include "render/silhouette/edge_hierarchies.h"
+#include "render/silhouette/lit_groups.h"
 #include "render/silhouette/receiver_shells.h"
 #include "render/silhouette/silhouette_method.h"
 #include "render/silhouette/tile_evaluation.h"
@@ -41,6 +42,9 @@ class Call {
         frame_(hierarchies.frame()),
         merged_(options.integrate && options.tolerance > 0.0 ? &hierarchies.merged(rays.arena()) : nullptr),
         edges_(hierarchies.edges(rays.arena())),
+        boxes_(hierarchies.boxes(rays.arena())),
+        groups_(hierarchies.groups(receivers, rays.arena())),
+        groupings_(hierarchies.groupings()),
         light_(light),
         receivers_(receivers),
         options_(options),
@@ -51,7 +55,7 @@ class Call {
   std::vector<std::uint32_t> finish();
 
  private:
-  void serve(const ReceiverShell& shell, const ReceiverGroups& groups, const Progress& progress);
+  void serve(const ReceiverShell& shell, const Progress& progress);
   template <class Make>
   auto in_arena(const Make& make) {
     return rays_.arena().execute(make);
@@ -64,6 +68,9 @@ class Call {
   const RayFrame& frame_;
   const MergedEdges* merged_;
   const SceneEdges& edges_;
+  const CasterBoxes& boxes_;
+  const BoxedGroups& groups_;
+  const std::size_t groupings_;
   const CircularLight& light_;
   const Receivers& receivers_;
   const SilhouetteOptions& options_;
@@ -84,25 +91,24 @@ void Call::run(const Progress& progress) {
   cannot_occlude_ = in_arena([&] { return find_casters_that_cannot_occlude(scene_, light_, receivers_); });
   out_.counts.casters_that_cannot_occlude =
       static_cast<std::size_t>(std::count(cannot_occlude_.begin(), cannot_occlude_.end(), char{1}));
-  const ReceiverGroups groups = in_arena([&] { return ReceiverGroups(receivers_); });
-  const std::vector<ReceiverShell> shells =
-      in_arena([&] { return receiver_shells(receivers_, groups, casters()); });
   double done = 0.0;
-  for (const ReceiverShell& shell : shells) {
-    const double part = static_cast<double>(shell.groups.size()) / static_cast<double>(groups.count());
-    serve(shell, groups, part_of(progress, done, done + part));
+  for (const ReceiverShell& shell : receiver_shells(groups_, casters())) {
+    const double part =
+        static_cast<double>(shell.groups.size()) / static_cast<double>(groups_.groups.count());
+    serve(shell, part_of(progress, done, done + part));
     done += part;
   }
 }
 
-void Call::serve(const ReceiverShell& shell, const ReceiverGroups& groups, const Progress& progress) {
+void Call::serve(const ReceiverShell& shell, const Progress& progress) {
   const UnitLight light(light_, shell.asked_about);
   const LitScene lit =
       in_arena([&] { return LitScene(scene_, light, edges_, shell.asked_about, cannot_occlude_); });
   Passes passes =
       in_arena([&] { return make_passes(lit, edges_, merged_, options_.tolerance, receivers_.size()); });
-  Tiles tiles(groups.count(), shell.groups, progress);
-  const ReceiverSource source(receivers_, groups, light, options_.horizon, out_);
+  Tiles tiles(groups_.groups.count(), shell.groups, progress);
+  const ReceiverSource source(receivers_, groups_.groups, light, options_.horizon, out_);
+  const LitGroups lit_groups(groups_, boxes_, lit, receivers_.has_normals() && options_.horizon);
   const auto band_of = [&](const std::vector<std::uint32_t>& some) {
     if (passes.now < passes.last()) return make_merged_band(lit, *merged_, *passes.levels[passes.now]);
     std::vector<ReceiverRegion> regions;
@@ -120,8 +126,11 @@ void Call::serve(const ReceiverShell& shell, const ReceiverGroups& groups, const
                                           passes, out_);
     });
     clock_.finish("band_tree");
-    tiles.run(passes.now, some, rays_.arena(), spaces_,
-              [&](std::size_t group, Workspace& w) { return evaluation->tile(group, w); });
+    tiles.run(passes.now, some, rays_.arena(), spaces_, [&](std::size_t group, Workspace& w) {
+      if (passes.now > 0 || !lit_groups.is_lit(group)) return evaluation->tile(group, w);
+      evaluation->light_up(group, groups_.boxes[group].count, w);
+      return 0u;
+    });
     evaluation->add_counts(out_.counts);
     clock_.finish("receivers");
   }
@@ -136,6 +145,7 @@ std::vector<std::uint32_t> Call::finish() {
     out_.open.insert(out_.open.end(), w.open.begin(), w.open.end());
   }
   std::sort(out_.open.begin(), out_.open.end());
+  out_.counts.groupings = groupings_;
   out_.counts.hierarchy_bytes = edges_.bytes() + (merged_ ? merged_->bytes() : 0);
   out_.stages = clock_.stages();
   return fallback;

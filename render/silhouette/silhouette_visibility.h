@@ -81,6 +81,8 @@ struct SilhouetteCounts {
   std::size_t fallback = 0;
   /// Of the band, its tree, and all threads' lists at their longest.
   std::size_t bytes = 0;
+  /// How often receivers have been put into groups so far, this call and those before it.
+  std::size_t groupings = 0;
   /// Of the hierarchies over edges, made once a frame and in no stage.
   std::size_t hierarchy_bytes = 0;
 };

@@ -273,6 +273,15 @@ void Evaluation::light_up(Workspace& w) const {
   w.counts.certified_lit += w.receivers.size();
 }
 
+void Evaluation::light_up(std::size_t group, std::size_t count, Workspace& w) const {
+  source_.light_up(group);
+  ++w.counts.tiles;
+  ++w.counts.empty_tiles;
+  w.counts.receivers += count;
+  w.counts.merged_receivers += band_.is_merged() ? count : 0;
+  w.counts.certified_lit += count;
+}
+
 /// Where nothing crosses the disk the answer holds for all of it. It is certified if it is beyond doubt, and
 /// left to a plain ray if not.
 void Evaluation::certify(const RayTask& task, Workspace& w) const {

@@ -79,6 +79,8 @@ class Evaluation {
   /// Answers the group's receivers that wait for the present pass. Returns the later passes that some of them then
   /// wait for: bit i stands for pass i.
   std::uint32_t tile(std::size_t group, Workspace& w) const;
+  /// The same for a group that sees all of the light (lit_groups.h); `count`: how many of its receivers are present.
+  void light_up(std::size_t group, std::size_t count, Workspace& w) const;
   /// What is known of the band.
   void add_counts(SilhouetteCounts& out) const {
     out.faces = band_.faces;

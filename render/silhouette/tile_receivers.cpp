@@ -69,6 +69,14 @@ std::size_t ReceiverSource::collect(std::size_t group, std::vector<TileReceiver>
   return behind;
 }
 
+void ReceiverSource::light_up(std::size_t group) const {
+  groups_.for_each(group, [&](std::uint32_t index) {
+    if (!receivers_.is_present(index)) return;
+    out_.visibility[index] = 1.0f;
+    out_.region[index] = 0;
+  });
+}
+
 std::size_t halve(std::span<TileReceiver> receivers) {
   Bounds box;
   for (const TileReceiver& r : receivers) box.add(r.x);

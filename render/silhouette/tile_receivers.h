@@ -25,6 +25,8 @@ class ReceiverSource {
   /// Into `receivers` those of a group that see some of the light's front above their horizon; it is replaced.
   /// Returns how many receivers are behind the light, hence in umbra.
   std::size_t collect(std::size_t group, std::vector<TileReceiver>& receivers) const;
+  /// Writes that all receivers of a group are wholly lit.
+  void light_up(std::size_t group) const;
 
  private:
   /// What one receiver is.

@@ -107,6 +107,12 @@ void bench_silhouette(Record& record, const SceneNames& scenes);
 /// The same file: 1,000 times the faces, and lights of 16 times the radius.
 void bench_growth(Record& record, const SceneNames&);
 
+/// frames_bench.cpp: a moving light before a camera that stays, made anew against kept from frame to frame.
+void bench_frames(Record& record, const SceneNames& scenes);
+
+/// pops_bench.cpp: the change from frame to frame of a moving light against the change that rays find.
+void bench_pops(Record& record, const SceneNames& scenes);
+
 /// occlusion_bench.cpp: prefilters; frames by the light's radius and by the number of slices.
 void bench_occlusion_textures(Record& record, const SceneNames&);
 

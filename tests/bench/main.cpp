@@ -71,6 +71,8 @@ const std::vector<Part>& parts() {
        {"cube-medium", "sphere-medium", "torus-medium", "boxes-medium", "triangle-medium", "speck-medium",
         "bunny-medium", "knot1-medium", "armadillo-medium", "refined_elephant-medium", "foliage-medium",
         "decorativePlant-medium", "building", "tree"}},
+      {"frames", bench_frames, {"cube-medium", "bunny-medium", "armadillo-medium"}},
+      {"pops", bench_pops, {"cube-medium", "bunny-medium", "armadillo-medium", "foliage-medium"}},
       {"solids", bench_solids, solid_scenes()},
       {"solids-judge", bench_solids_judge, solid_scenes()},
       {"fields", bench_fields, {"bunny-small", "bunny-medium", "bunny-large", "bunny-sun"}},

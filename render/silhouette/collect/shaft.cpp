@@ -70,9 +70,19 @@ bool edge_is_beyond(const Vec3& a, const Vec3& b, const double* slope, double ma
 
 }  // namespace
 
-Shaft::Shaft(std::span<const TileReceiver> receivers, double extent) : margin_(0x1p-44 * extent) {
+namespace {
+
+Bounds box_of(std::span<const TileReceiver> receivers) {
   Bounds box;
   for (const TileReceiver& r : receivers) box.add(r.x);
+  return box;
+}
+
+}  // namespace
+
+Shaft::Shaft(std::span<const TileReceiver> receivers, double extent) : Shaft(box_of(receivers), extent) {}
+
+Shaft::Shaft(const Bounds& box, double extent) : margin_(0x1p-44 * extent) {
   top_ = box.high.z;
   middle_ = box.center();
   half_ = 0.5 * (box.high - box.low);

@@ -34,6 +34,8 @@ class Shaft {
  public:
   /// Around the box of the receivers: loose, but cheap. `extent`: the largest coordinate.
   Shaft(std::span<const TileReceiver> receivers, double extent);
+  /// Around a box of the light's frame, wholly in front of the light.
+  Shaft(const Bounds& box, double extent);
   /// Makes the sides touch the receivers themselves, and adds their horizons. Cost O(receivers).
   void tighten(std::span<const TileReceiver> receivers);
 

@@ -20,9 +20,9 @@ TEST(ReceiverShells, HoldEveryGroupOnceByItsDistance) {
     objects.push_back(i % 100 == 0 ? -1 : 0);
   }
   const Receivers receivers{.points = points, .objects = objects};
-  const ReceiverGroups groups(receivers);
+  const BoxedGroups groups(receivers);
   const Bounds casters{Vec3(-1.0), Vec3(1.0)};
-  const std::vector<ReceiverShell> shells = receiver_shells(receivers, groups, casters);
+  const std::vector<ReceiverShell> shells = receiver_shells(groups, casters);
   EXPECT_GT(shells.size(), 2u);
   std::set<std::uint32_t> seen;
   double reach = 0.0;
@@ -32,7 +32,7 @@ TEST(ReceiverShells, HoldEveryGroupOnceByItsDistance) {
     reach = shell.asked_about.radius();
     for (const std::uint32_t group : shell.groups) {
       EXPECT_TRUE(seen.insert(group).second);
-      groups.for_each(group, [&](std::uint32_t i) {
+      groups.groups.for_each(group, [&](std::uint32_t i) {
         if (objects[i] < 0) return;
         const Vec3& p = points[i];
         for (int k = 0; k < 3; ++k) {
@@ -44,9 +44,9 @@ TEST(ReceiverShells, HoldEveryGroupOnceByItsDistance) {
     EXPECT_LE(shell.asked_about.low.x, -1.0) << "casters are asked about in every shell";
   }
   std::size_t with_receivers = 0;
-  for (std::size_t g = 0; g < groups.count(); ++g) {
+  for (std::size_t g = 0; g < groups.groups.count(); ++g) {
     bool any = false;
-    groups.for_each(g, [&](std::uint32_t i) { any = any || objects[i] >= 0; });
+    groups.groups.for_each(g, [&](std::uint32_t i) { any = any || objects[i] >= 0; });
     with_receivers += any ? 1 : 0;
   }
   EXPECT_EQ(seen.size(), with_receivers);
@@ -55,8 +55,8 @@ TEST(ReceiverShells, HoldEveryGroupOnceByItsDistance) {
 TEST(ReceiverShells, AnOrdinarySceneHasOne) {
   const std::vector<Vec3> points{{0, 0, 0}, {10, 0, 10}, {-10, 0, -10}};
   const Receivers receivers{.points = points};
-  EXPECT_EQ(receiver_shells(receivers, ReceiverGroups(receivers), {Vec3(-0.5), Vec3(0.5)}).size(), 1u);
-  EXPECT_EQ(receiver_shells(receivers, ReceiverGroups(receivers), {}).size(), 1u) << "nothing casts";
+  EXPECT_EQ(receiver_shells(BoxedGroups(receivers), {Vec3(-0.5), Vec3(0.5)}).size(), 1u);
+  EXPECT_EQ(receiver_shells(BoxedGroups(receivers), {}).size(), 1u) << "nothing casts";
 }
 
 }  // namespace
