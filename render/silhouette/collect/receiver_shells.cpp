@@ -1,4 +1,4 @@
-#include "render/silhouette/receiver_shells.h"
+#include "render/silhouette/collect/receiver_shells.h"
 
 #include <tbb/parallel_for.h>
 
@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "render/receivers/occluding_casters.h"
 
 namespace penumbra::detail {
 namespace {
@@ -55,6 +57,14 @@ std::vector<ReceiverShell> receiver_shells(const Receivers& receivers, const Rec
   std::erase_if(shells, [](const ReceiverShell& s) { return s.groups.empty(); });
   for (ReceiverShell& shell : shells) shell.asked_about.add(casters);
   return shells;
+}
+
+ShelledReceivers::ShelledReceivers(const Scene& scene, const CircularLight& light, const Receivers& receivers)
+    : groups(receivers), cannot_occlude(find_casters_that_cannot_occlude(scene, light, receivers)) {
+  Bounds casters;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (scene.objects[i].casts && !cannot_occlude[i]) casters.add(scene.objects[i].mesh.bounds());
+  shells = receiver_shells(receivers, groups, casters);
 }
 
 }  // namespace penumbra::detail
