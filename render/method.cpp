@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "penumbra/mesh/error.h"
+#include "render/depth_complexity/depth_complexity_method.h"
 #include "render/plan/auto_method.h"
 #include "render/rays/ray_methods.h"
 #include "render/silhouette/silhouette_method.h"
@@ -52,6 +53,7 @@ std::deque<MethodInfo> built_in() {
   add(known, auto_method());
   add(known, reference_method());
   add(known, rays_method());
+  add(known, depth_complexity_method());
   add(known, hard_method());
   add(known, no_shadow_method());
   return known;

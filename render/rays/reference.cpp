@@ -5,31 +5,21 @@
 #include <glm/geometric.hpp>
 
 #include "render/light/area_light.h"
-#include "render/light/disk_samples.h"
+#include "render/light/light_samples.h"
 #include "render/rays/each_receiver.h"
 #include "render/rays/hard.h"
 #include "render/rays/ray_methods.h"
 #include "render/rays/ray_packets.h"
+#include "render/receivers/sample_key.h"
 #include "render/support/vector_clones.h"
 
 namespace penumbra {
 namespace {
 
-constexpr int kLanes = detail::RayPacket::kRays;
+using detail::StratumTable;
 
-/// Where each sample's stratum lies, so that no lane divides.
-struct StratumTable {
-  explicit StratumTable(int samples) : strata(samples) {
-    const int padded = (strata.count() + kLanes - 1) / kLanes * kLanes;
-    for (int i = 0; i < padded; ++i) {
-      const int column = i % strata.columns, row = i / strata.columns;
-      columns.push_back(static_cast<float>(column));
-      rows.push_back(static_cast<float>(row));
-    }
-  }
-  detail::Strata strata;
-  std::vector<float> columns, rows;
-};
+constexpr int kLanes = detail::RayPacket::kRays;
+static_assert(kLanes == detail::kSampleLanes);
 
 /// Ways from a receiver to sixteen samples of the light, in world coordinates, and which of them are above its horizon.
 ///
@@ -54,29 +44,9 @@ struct Aim {
 PENUMBRA_VECTOR_CLONES
 void aim_at_samples(const Aim& aim, const StratumTable& table, std::uint32_t key, int first,
                     detail::RayPacket& out, int* above) {
-  const float per_column = 1.0f / static_cast<float>(table.strata.columns);
-  const float per_row = 1.0f / static_cast<float>(table.strata.rows);
   const Vec3 c = aim.center, u = aim.u, v = aim.v, n = aim.normal;
-  const float* columns = table.columns.data() + first;
-  const float* rows = table.rows.data() + first;
   alignas(64) float a[kLanes], b[kLanes];
-  for (int k = 0; k < kLanes; ++k) {
-    const detail::DiskPoint p = detail::stratum_sample(key, static_cast<std::uint32_t>(first + k), columns[k],
-                                                       rows[k], per_column, per_row);
-    a[k] = p.x;
-    b[k] = p.y;
-  }
-  if (aim.disk)
-    for (int k = 0; k < kLanes; ++k) {
-      const detail::DiskPoint p = detail::concentric_disk(a[k], b[k]);
-      a[k] = p.x;
-      b[k] = p.y;
-    }
-  else
-    for (int k = 0; k < kLanes; ++k) {
-      a[k] = 2.0f * a[k] - 1.0f;
-      b[k] = 2.0f * b[k] - 1.0f;
-    }
+  detail::place_samples(table, aim.disk, key, first, a, b);
   alignas(64) double height[kLanes];
   for (int k = 0; k < kLanes; ++k) {
     const double s = a[k], t = b[k];
@@ -119,11 +89,6 @@ RayCounts trace_receiver(const RayScene& rays, const Aim& aim, const StratumTabl
   return counts;
 }
 
-std::uint32_t key_of(const Receivers& receivers, std::uint32_t i, std::uint64_t seed) {
-  if (receivers.are_pixels()) return detail::sample_key(seed, i);
-  return detail::sample_key(seed, receivers.points[i]);
-}
-
 }  // namespace
 
 ReferenceResult trace_reference(const RayScene& rays, const LightShape& shape, const Receivers& receivers,
@@ -160,7 +125,7 @@ ReferenceResult trace_reference(const RayScene& rays, const LightShape& shape, c
     for (int k = 0; k < kLanes; ++k) packet.set_start(k, detail::start_of(receivers, receiver));
     const RayCounts counts =
         trace_receiver(rays, Aim(light, receivers, receiver), table,
-                       key_of(receivers, receiver, options.seed), all, coherence, packet);
+                       detail::sample_key_of(receivers, receiver, options.seed), all, coherence, packet);
     const int visible = receivers.has_normals() ? counts.visible : counts.unblocked;
     out.visibility[i] = static_cast<float>(visible) * per_sample;
     if (with_unoccluded) out.unoccluded[i] = static_cast<float>(counts.unblocked) * per_sample;

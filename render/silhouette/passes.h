@@ -18,7 +18,7 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/progress.h"
 #include "render/rays/ray_scene.h"
-#include "render/silhouette/tile_receivers.h"
+#include "render/silhouette/collect/tile_receivers.h"
 
 namespace penumbra::detail {
 

@@ -8,10 +8,9 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/rays/reference.h"
-#include "render/receivers/occluding_casters.h"
+#include "render/silhouette/collect/receiver_shells.h"
 #include "render/silhouette/edge_hierarchies.h"
 #include "render/silhouette/lit_groups.h"
-#include "render/silhouette/receiver_shells.h"
 #include "render/silhouette/silhouette_method.h"
 #include "render/silhouette/tile_evaluation.h"
 
@@ -55,13 +54,11 @@ class Call {
   std::vector<std::uint32_t> finish();
 
  private:
-  void serve(const ReceiverShell& shell, const Progress& progress);
+  void serve(const ReceiverShell& shell, const ShelledReceivers& all, const Progress& progress);
   template <class Make>
   auto in_arena(const Make& make) {
     return rays_.arena().execute(make);
   }
-  /// Of the casters that may hide something.
-  Bounds casters() const;
 
   const Scene& scene_;
   const RayScene& rays_;
@@ -76,38 +73,26 @@ class Call {
   const SilhouetteOptions& options_;
   SilhouetteResult& out_;
   StageClock clock_;
-  std::vector<char> cannot_occlude_;
   tbb::enumerable_thread_specific<Workspace> spaces_;
 };
 
-Bounds Call::casters() const {
-  Bounds out;
-  for (std::size_t i = 0; i < scene_.objects.size(); ++i)
-    if (scene_.objects[i].casts && !cannot_occlude_[i]) out.add(scene_.objects[i].mesh.bounds());
-  return out;
-}
-
 void Call::run(const Progress& progress) {
-  cannot_occlude_ = in_arena([&] { return find_casters_that_cannot_occlude(scene_, light_, receivers_); });
+  const ShelledReceivers all =
+      in_arena([&] { return ShelledReceivers(scene_, light_, receivers_, groups_); });
   out_.counts.casters_that_cannot_occlude =
-      static_cast<std::size_t>(std::count(cannot_occlude_.begin(), cannot_occlude_.end(), char{1}));
-  double done = 0.0;
-  for (const ReceiverShell& shell : receiver_shells(groups_, casters())) {
-    const double part =
-        static_cast<double>(shell.groups.size()) / static_cast<double>(groups_.groups.count());
-    serve(shell, part_of(progress, done, done + part));
-    done += part;
-  }
+      static_cast<std::size_t>(std::count(all.cannot_occlude.begin(), all.cannot_occlude.end(), char{1}));
+  all.for_each(progress, [&](const ReceiverShell& shell, const Progress& part) { serve(shell, all, part); });
 }
 
-void Call::serve(const ReceiverShell& shell, const Progress& progress) {
+void Call::serve(const ReceiverShell& shell, const ShelledReceivers& all, const Progress& progress) {
   const UnitLight light(light_, shell.asked_about);
   const LitScene lit =
-      in_arena([&] { return LitScene(scene_, light, edges_, shell.asked_about, cannot_occlude_); });
+      in_arena([&] { return LitScene(scene_, light, edges_, shell.asked_about, all.cannot_occlude); });
   Passes passes =
       in_arena([&] { return make_passes(lit, edges_, merged_, options_.tolerance, receivers_.size()); });
-  Tiles tiles(groups_.groups.count(), shell.groups, progress);
-  const ReceiverSource source(receivers_, groups_.groups, light, options_.horizon, out_);
+  Tiles tiles(all.groups.count(), shell.groups, progress);
+  const ReceiverSource source(receivers_, all.groups, light, options_.horizon,
+                              {out_.visibility, out_.region});
   const LitGroups lit_groups(groups_, boxes_, lit, receivers_.has_normals() && options_.horizon);
   const auto band_of = [&](const std::vector<std::uint32_t>& some) {
     if (passes.now < passes.last()) return make_merged_band(lit, *merged_, *passes.levels[passes.now]);

@@ -20,11 +20,11 @@
 #include "render/silhouette/areas/visible_area.h"
 #include "render/silhouette/collect/edge_blocks.h"
 #include "render/silhouette/collect/shaft.h"
+#include "render/silhouette/collect/tile_receivers.h"
 #include "render/silhouette/collect/uncertain_edges.h"
 #include "render/silhouette/light_rays.h"
 #include "render/silhouette/passes.h"
 #include "render/silhouette/silhouette_visibility.h"
-#include "render/silhouette/tile_receivers.h"
 
 namespace penumbra::detail {
 

@@ -41,7 +41,7 @@ struct Contender {
   PictureSize size{};
 };
 
-/// Every method but `none`.
+/// Every method but `none`, and `auto`, which is one of the others.
 std::vector<Contender> contenders();
 /// One of them.
 Contender contender(const std::string& method);

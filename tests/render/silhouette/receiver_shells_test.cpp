@@ -1,4 +1,4 @@
-#include "render/silhouette/receiver_shells.h"
+#include "render/silhouette/collect/receiver_shells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "render/silhouette/tile_receivers.h"
+#include "render/silhouette/collect/tile_receivers.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
@@ -16,7 +16,7 @@ constexpr double kRaised = 0x1p-30;
 }  // namespace
 
 ReceiverSource::ReceiverSource(const Receivers& receivers, const ReceiverGroups& groups,
-                               const UnitLight& light, bool horizon, SilhouetteResult& out)
+                               const UnitLight& light, bool horizon, const DecidedReceivers& out)
     : receivers_(receivers),
       groups_(groups),
       light_(light),
@@ -32,7 +32,7 @@ PENUMBRA_INLINE ReceiverSource::Kind ReceiverSource::add(std::uint32_t index,
   const Vec3 x = light_.point(point);
   if (!(x.z > 0.0)) {
     out_.visibility[index] = 0.0f;
-    out_.region[index] = 2;
+    if (!out_.region.empty()) out_.region[index] = 2;
     return Kind::kBehindLight;
   }
   const Vec3 n = light_.plane_normal(point, normal);

@@ -1,9 +1,11 @@
-#include "render/silhouette/receiver_shells.h"
+#include "render/silhouette/collect/receiver_shells.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "render/receivers/occluding_casters.h"
 
 namespace penumbra::detail {
 namespace {
@@ -42,6 +44,17 @@ std::vector<ReceiverShell> receiver_shells(const BoxedGroups& groups, const Boun
   std::erase_if(shells, [](const ReceiverShell& s) { return s.groups.empty(); });
   for (ReceiverShell& shell : shells) shell.asked_about.add(casters);
   return shells;
+}
+
+ShelledReceivers::ShelledReceivers(const Scene& scene, const CircularLight& light, const Receivers& receivers,
+                                   const BoxedGroups& groups_of)
+    : boxed(groups_of),
+      groups(groups_of.groups),
+      cannot_occlude(find_casters_that_cannot_occlude(scene, light, receivers)) {
+  Bounds casters;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (scene.objects[i].casts && !cannot_occlude[i]) casters.add(scene.objects[i].mesh.bounds());
+  shells = receiver_shells(boxed, casters);
 }
 
 }  // namespace penumbra::detail
