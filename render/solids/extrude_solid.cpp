@@ -27,9 +27,32 @@ LightShape enlarged(LightShape light) {
   return light;
 }
 
-detail::JudgePoints judge_of(const Casters& casters, const LightShape& light) {
-  return
-      [&casters, light](std::span<const Vec3> points) { return detail::seen_from(casters, light, points); };
+/// The whole call's progress, which calls inside ask whether to go on without a step forward.
+class CallProgress {
+ public:
+  explicit CallProgress(const Progress& whole) : whole_(whole) {}
+
+  Progress forward() {
+    if (!whole_) return {};
+    return [this](double fraction) {
+      reached_ = fraction;
+      return whole_(fraction);
+    };
+  }
+  Progress at_rest() {
+    if (!whole_) return {};
+    return [this](double) { return whole_(reached_); };
+  }
+
+ private:
+  const Progress& whole_;
+  double reached_ = 0.0;
+};
+
+detail::JudgePoints judge_of(const Casters& casters, const LightShape& light, CallProgress& progress) {
+  return [&casters, light, at_rest = progress.at_rest()](std::span<const Vec3> points) {
+    return detail::seen_from(casters, light, points, at_rest);
+  };
 }
 
 Bounds bound_of(std::span<const TriangleMesh> meshes, const SolidOptions& options) {
@@ -94,15 +117,17 @@ ShadowSolid extrude_solid(const Casters& casters, const LightShape& light, const
   for (const TriangleMesh& mesh : meshes) box.add(mesh.bounds());
   const double tolerance = options.tolerance > 0.0 ? options.tolerance : kUsualTolerance * 2.0 * box.radius();
   const bool umbra = level.kind == ShadowLevel::Kind::kUmbra;
-  const detail::SolidMeshRequest request{.casters = meshes,
-                                         .light = circular,
-                                         .region = static_cast<detail::ShadowRegion>(level.kind),
-                                         .level = level.fraction,
-                                         .bound = bound,
-                                         .tolerance = tolerance,
-                                         .hollow = options.hollow,
-                                         .judge = judge_of(casters, umbra ? enlarged(light) : light),
-                                         .progress = options.progress};
+  CallProgress progress(options.progress);
+  const detail::SolidMeshRequest request{
+      .casters = meshes,
+      .light = circular,
+      .region = static_cast<detail::ShadowRegion>(level.kind),
+      .level = level.fraction,
+      .bound = bound,
+      .tolerance = tolerance,
+      .hollow = options.hollow,
+      .judge = judge_of(casters, umbra ? enlarged(light) : light, progress),
+      .progress = progress.forward()};
   ShadowSolid out =
       casters.impl().threads->execute([&] { return solid_of(detail::mesh_shadow(request), options); });
   out.tolerance = tolerance;

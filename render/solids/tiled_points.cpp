@@ -19,7 +19,8 @@ std::vector<TriangleMesh> casting_meshes(const Casters& casters) {
   return meshes;
 }
 
-std::vector<float> seen_from(const Casters& casters, const LightShape& light, std::span<const Vec3> points) {
+std::vector<float> seen_from(const Casters& casters, const LightShape& light, std::span<const Vec3> points,
+                             const Progress& progress) {
   if (points.empty()) return {};
   // A picture eight rows high, a tile beside the other; the last is filled up with the last point.
   const std::size_t tiles = (points.size() + kTile * kTile - 1) / (kTile * kTile), width = kTile * tiles;
@@ -36,7 +37,7 @@ std::vector<float> seen_from(const Casters& casters, const LightShape& light, st
     });
   };
   for_each_point([&](std::size_t i) { pixels[place(i)] = points[i]; });
-  VisibilityOptions options;
+  VisibilityOptions options{.progress = progress};
   options.options["silhouette-tolerance"] = 0.0;
   const Receivers receivers{
       .points = pixels, .width = static_cast<int>(width), .height = static_cast<int>(kTile)};

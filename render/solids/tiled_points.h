@@ -13,7 +13,8 @@ namespace penumbra::detail {
 std::vector<TriangleMesh> casting_meshes(const Casters& casters);
 
 /// O at each point. Each 64 that follow one another are one tile of receivers, so that nothing is sorted. Silhouettes are those of
-/// all edges, none merged.
-std::vector<float> seen_from(const Casters& casters, const LightShape& light, std::span<const Vec3> points);
+/// all edges, none merged. `progress` is that of this call alone. Throws Cancelled.
+std::vector<float> seen_from(const Casters& casters, const LightShape& light, std::span<const Vec3> points,
+                             const Progress& progress = {});
 
 }  // namespace penumbra::detail

@@ -4,7 +4,7 @@ import pathlib
 import re
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LANGUAGES = {"sh", "cpp", "cmake", "json", "text"}
+LANGUAGES = {"sh", "cpp", "cmake", "json", "python", "text"}
 
 
 @dataclasses.dataclass

@@ -96,6 +96,7 @@ const std::vector<Rule>& rules() {
       {"Dear ImGui", "apps/viewer/", kAlone, "<imgui", {"apps/common/options.h", "imgui.h", false}},
       {"OpenEXR", "render/image/", kAlone, "<OpenEXR/", {"apps/common/outputs.cpp", "OpenEXR/ImfHeader.h", false}},
       {"CLI11", "(apps|tests)/", kAlone, "<CLI/", {"render/renderer.h", "CLI/CLI.hpp", false}},
+      {"pybind11", "apps/python/", kAlone, "<pybind11/", {"apps/common/options.cpp", "pybind11/pybind11.h", false}},
       {"JSON", "(apps/|tests/|render/scene/(\\w+\\.cpp|scene_json\\.h|scene_node\\.h))", kAlone, "<nlohmann/",
        {"render/scene/scene.h", "nlohmann/json.hpp", false}},
   };

@@ -1,0 +1,9 @@
+"""Exact visibility of area lights, shadow solids and soft-shadow pictures, on NumPy arrays.
+
+Points are doubles, lengths are scene units. Long calls use all cores, run without Python's lock, and stop at Ctrl-C.
+"""
+from ._penumbra import (Camera, Cancelled, DiskLight, DistantLight, Light, MeshError, RectangleLight, Scene, SceneError,
+                        __version__, classify, level, penumbra, render, silhouettes, umbra)
+
+__all__ = ["Camera", "Cancelled", "DiskLight", "DistantLight", "Light", "MeshError", "RectangleLight", "Scene", "SceneError",
+           "__version__", "classify", "level", "penumbra", "render", "silhouettes", "umbra"]
