@@ -47,10 +47,9 @@ def test_an_umbra_is_closed_and_as_large_as_it_says(umbra):
 
 def test_points_inside_an_umbra_see_nothing(umbra):
     V, F, _ = umbra
-    below = V[V[:, 1] < 0.4]
-    inside = below + 0.02 * (np.array([0, 0.0, 0]) - below)
-    inside[:, 1] = below[:, 1]
-    assert len(inside) > 10
+    # The umbra of a convex body under a disk is convex: means of its vertices are inside. Those in the box are hidden, too.
+    weights = np.random.default_rng(1).dirichlet(np.ones(len(V)), 1000)
+    inside = weights @ V
     assert BOX.visibility(inside, ABOVE).max() == 0.0
 
 
@@ -61,18 +60,6 @@ def test_a_penumbra_holds_a_level_holds_an_umbra(umbra):
     assert umbra[2]["volume"] < half < most
     V, F = penumbra.level(BOX, ABOVE, 0.5, bound=BOUND, tolerance=0.1)
     assert is_closed(F) and volume(V, F) == pytest.approx(half, rel=1e-9)
-
-
-def test_a_hollow_solid_is_without_the_bodies(umbra):
-    hollow = penumbra.umbra(BOX, ABOVE, bound=BOUND, tolerance=0.1, hollow=True, report=True)[2]
-    assert hollow["volume"] == pytest.approx(umbra[2]["volume"] - 1.0, abs=0.1)
-
-
-def test_where_nothing_is_hidden_solids_are_empty():
-    lamp = penumbra.DiskLight((0, 1.001, 0), (0, -1, 0), 100.0)
-    speck = penumbra.Scene(*shapes.box((0, 0, 0), half=0.001))
-    V, F = penumbra.umbra(speck, lamp, bound=[[-5, -5, -5], [5, 0.9, 5]], tolerance=0.5)
-    assert V.shape == (0, 3) and F.shape == (0, 3)
 
 
 def test_classes_of_a_box_below_a_small_light():
