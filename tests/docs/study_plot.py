@@ -10,7 +10,7 @@ import math
 import sys
 from collections import defaultdict
 
-WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 860, 480, 66, 52, 14, 14
+WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 1000, 480, 66, 52, 14, 164
 # Readable on white and on dark.
 COLORS = {"silhouette": "#2f81d8", "reference": "#85898f", "rays": "#d88a1d", "hard": "#9a9f22", "none": "#b565c1",
           "dbuffer": "#d8473d", "occlusion-textures": "#1aa37c"}
@@ -78,9 +78,9 @@ def svg_of(points):
         out.append(f'<circle cx="{x(p[0]):.1f}" cy="{y(p[1]):.1f}" r="{6 if p in best else 4}" fill="{colors[p[2]]}" '
                    f'fill-opacity="{1 if p in best else .55}"><title>{p[3]}: {p[0]:.1f} ms, {p[1]:.2g}</title></circle>')
     for k, m in enumerate(methods):
-        out.append(f'<circle cx="{WIDTH - 190}" cy="{TOP + 16 + 19 * k}" r="5" fill="{colors[m]}"/>'
-                   f'<text x="{WIDTH - 178}" y="{TOP + 20 + 19 * k}">{m}</text>')
-    out.append(f'<text x="{(LEFT + WIDTH) / 2}" y="{HEIGHT - 10}" text-anchor="middle">milliseconds a frame</text>'
+        out.append(f'<circle cx="{WIDTH - RIGHT + 18}" cy="{TOP + 16 + 21 * k}" r="5" fill="{colors[m]}"/>'
+                   f'<text x="{WIDTH - RIGHT + 30}" y="{TOP + 20 + 21 * k}">{m}</text>')
+    out.append(f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 10}" text-anchor="middle">milliseconds a frame</text>'
                f'<text transform="translate(16 {HEIGHT / 2}) rotate(-90)" text-anchor="middle">error where the shadow is soft (RMSE)</text></svg>')
     return "\n".join(out) + "\n"
 

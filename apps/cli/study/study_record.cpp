@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "apps/common/outputs.h"
 #include "mesh/io/write_file.h"
@@ -27,7 +28,7 @@ std::string cell_of(const json& value) {
   return quoted += '"';
 }
 
-/// A column of the CSV file: its name, and where it is in a row.
+/// A column of the CSV file: its name, and where it is in a row or, where a row has none, in its case.
 struct Column {
   const char* name;
   const char* pointer;
@@ -76,10 +77,14 @@ std::string csv_of(const StudyRecord& record) {
   const auto end_line = [&text] { text.back() = '\n'; };
   for (const Column& column : kColumns) text.append(column.name) += ',';
   end_line();
+  std::map<std::string, const json*> cases;
+  for (const json& seen : record.cases()) cases[seen.at("id")] = &seen;
   for (const json& row : record.rows()) {
+    const json& seen = *cases.at(row.at("case"));
     for (const Column& column : kColumns) {
       const json::json_pointer pointer(column.pointer);
-      text.append(row.contains(pointer) ? cell_of(row.at(pointer)) : "") += ',';
+      const json* owner = row.contains(pointer) ? &row : seen.contains(pointer) ? &seen : nullptr;
+      text.append(owner ? cell_of(owner->at(pointer)) : "") += ',';
     }
     end_line();
   }

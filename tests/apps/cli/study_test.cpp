@@ -135,6 +135,24 @@ TEST_F(StudyTest, WritesRowsTablesAndAPage) {
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
 }
 
+TEST_F(StudyTest, TablesSayWhatARowIsOf) {
+  std::filesystem::create_directory(file("out"));
+  write_text(file("out") / "rows.jsonl",
+             "{\"about\":{}}\n"
+             R"({"case":{"id":"a","scene":"a","sweep":"","width":64}})"
+             "\n"
+             R"({"row":{"case":"a","key":"a1","scene":"a","method":"hard"}})"
+             "\n"
+             R"({"case":{"id":"b","scene":"a","sweep":"light","width":64}})"
+             "\n"
+             R"({"row":{"case":"b","key":"b1","scene":"a","method":"hard"}})"
+             "\n");
+  apps::write_tables(apps::StudyRecord(file("out"), Json::object()));
+  const std::string csv = read_text(file("out") / "study.csv");
+  EXPECT_NE(csv.find("\na,64,,,,,hard,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\na,64,,,light,,hard,"), std::string::npos) << csv;
+}
+
 TEST_F(StudyTest, MeasuresOnlyWhatIsMissing) {
   ASSERT_EQ(study({}, "hard").code, 0);
   const Json before = table()["rows"][0];
