@@ -58,7 +58,7 @@ struct ShadowSolid {
 
 /// Surface by marching tetrahedra; simplified on one side, as progressive hulls are (P. Sander et al., "Silhouette clipping",
 /// 2000, section 3). Cost: the grid and one call for visibility at each of its points near the surface, and some twenty points a
-/// triangle, several times where an umbra's are moved; on all threads. At the usual tolerance 2 s for the umbra of a bunny, 39 s
+/// triangle, several times where an umbra's are moved; on all threads. At the usual tolerance 1 s for the umbra of a bunny, 22 s
 /// for that of an armadillo under a light whose radius is a sixth of its diagonal, on two cores; triangles grow like 1 / tolerance².
 ///
 /// The bodies of the casters belong to umbra and penumbra, unless they are left out. What is on the light's plane or behind it does not. Deterministic.

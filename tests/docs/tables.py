@@ -124,6 +124,16 @@ def frames(part):
     return markdown(["scene", *methods], rows)
 
 
+def kept_frames(part):
+    rows = []
+    for scene in scenes_of(part, "/silhouette/kept/render"):
+        ratio = part.figures[f"{scene}/silhouette/kept : anew"]
+        rows.append([scene, number(part.median(f"{scene}/silhouette/anew/render")),
+                     number(part.median(f"{scene}/silhouette/kept/render")),
+                     f"{ratio['median']:.2f} ({ratio['low']:.2f} to {ratio['high']:.2f})"])
+    return markdown(["scene", "made anew, ms", "kept, ms", "kept : anew"], rows)
+
+
 def silhouette_errors(part):
     rows = [[scene, error(part.median(f"{scene}/RMSE")),
              f"{error(part.median(f'{scene}/RMSE at least'))} to {error(part.median(f'{scene}/RMSE at most'))}",
@@ -301,6 +311,7 @@ TABLES = {
     "silhouette-error": lambda: first_machine("silhouette", silhouette_errors),
     "judge": lambda: first_machine("judge", judged),
     "frames": lambda: each_machine("accuracy", frames),
+    "kept-frames": lambda: each_machine("frames", kept_frames),
     "silhouette-time": lambda: each_machine("silhouette", silhouette_times),
     "growth": lambda: each_machine("growth", growth),
     "radii": lambda: each_machine("growth", radii),

@@ -99,10 +99,14 @@ Study.makePlot = (place, points, settings) => {
       for (const method of new Set(points.map(p => p.method)))
         drawLine(u, points.filter(p => p.method === method), Study.colorOf(method), 1.5 * ratio);
     else drawLine(u, front, style.getPropertyValue("--ink").trim(), 2 * ratio);
-    points.forEach((p, k) => {
+    // What is beaten first, so that it hides nothing of the front.
+    const isOfFront = p => settings.lines || front.includes(p);
+    const order = [...points.keys()].sort((a, b) => isOfFront(points[a]) - isOfFront(points[b]));
+    order.forEach(k => {
+      const p = points[k];
       const chosen = k === active || (settings.chosen && p.row === settings.chosen && p.label === settings.chosen.label);
       const r = (settings.small ? 3 : 4.5) * ratio * (chosen ? 1.7 : 1);
-      const pale = !(settings.lines || front.includes(p) || chosen);
+      const pale = !(isOfFront(p) || chosen);
       Study.drawMark(ctx, p.method, u.valToPos(p.x, "x", true), u.valToPos(p.y, "y", true), r, { filled: !p.below, pale });
     });
     ctx.restore();

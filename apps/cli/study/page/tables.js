@@ -34,30 +34,37 @@ const verdictOf = (points, view) => {
   if (!tightest) return line;
   const loosest = budgets[bests.findIndex(best => best && best.label === tightest.label)];
   const kept = budgets[bests.lastIndexOf(tightest)];
-  line.append("Down to an error of ", Study.element("b", {}, String(kept)), " the fastest is ", Study.element("b", {}, tightest.label),
-    `: ${Study.ms(tightest.x)} a frame`, loosest > kept ? `, and nothing is faster that keeps ${loosest}` : "", ". ");
+  line.append("For an error of ", Study.element("b", {}, loosest > kept ? `${loosest} to ${kept}` : String(kept)), " the fastest is ",
+    Study.element("b", {}, tightest.label), `: ${Study.ms(tightest.x)} a frame. `);
+  const faster = points.filter(p => p.x < tightest.x / (1 + Study.TIE_PERCENT / 100));
+  if (faster.length > 0) line.append(`Whatever is faster is off by ${Study.digits(Math.min(...faster.map(p => p.y)), 2)} or more`);
   const plain = points.find(p => p.label === "none");
-  if (plain) line.append(`Without any shadow it takes ${Study.ms(plain.x)}. `);
+  if (faster.length > 0) line.append(plain ? `; a frame without any shadow takes ${Study.ms(plain.x)}. ` : ". ");
   const won = Study.scenes.filter(seen => Study.bestOf(Study.pointsOf(seen.rows, view), "error", kept)?.method === tightest.method).length;
   if (Study.scenes.length > 1) line.append(`${tightest.method} is the fastest within ${kept} on ${won} of ${Study.scenes.length} scenes.`);
   return line;
 };
 
-/** What each method costs for some errors, over all scenes. */
+/** The fastest of the points within an error, ties or not; Infinity where there is none. */
+const timeFor = (points, budget) => points.filter(p => p.y <= budget).reduce((least, p) => Math.min(least, p.x), Infinity);
+
+/** What each method costs for some errors, over all scenes, and the least error that it reached. */
 Study.fillShort = (place, view) => {
   const points = Study.scenes.length > 1 ? Study.pointsOverAll(view) : Study.pointsOf(Study.scenes[0]?.rows || [], view);
   const budgets = [0.05, 0.01, 0.001];
-  const bests = budgets.map(budget => Study.bestOf(points, "error", budget)?.x);
-  const lines = Study.methods.map(method => {
+  const bests = budgets.map(budget => timeFor(points, budget));
+  const lines = Study.methods.filter(method => method !== "none" && !view.hidden.has(method)).map(method => {
     const own = points.filter(p => p.method === method);
-    return { method, points: own, times: budgets.map(budget => Study.bestOf(own, "error", budget)?.x ?? Infinity) };
-  }).filter(line => line.points.length > 0 && line.method !== "none");
+    return { method, least: own.length ? own.reduce((a, b) => a.y <= b.y ? a : b) : null, times: budgets.map(budget => timeFor(own, budget)) };
+  });
   const order = (a, b) => b.times.filter(isFinite).length - a.times.filter(isFinite).length || a.times.reduce((d, t, k) => d || (isFinite(t) ? t - b.times[k] : 0), 0);
   const cell = (time, k) => Study.element("td", { class: `number${time <= bests[k] * (1 + Study.TIE_PERCENT / 100) ? " best" : ""}` },
-    isFinite(time) ? Study.ms(time) : "never");
-  const rows = lines.sort(order).map(({ method, times }) => Study.element("tr", {},
-    Study.element("th", { scope: "row" }, Study.chip(method), method), ...times.map(cell), Study.element("td", { class: "what" }, Study.summaryOf(method))));
-  const head = ["time for an error of", ...budgets.map(String), "how"];
+    isFinite(time) ? Study.ms(time) : "–");
+  const leastOf = least => least ? `${Study.errorText(least)} in ${Study.ms(least.x)}` : "not on every scene";
+  const rows = lines.sort(order).map(({ method, times, least }) => Study.element("tr", {},
+    Study.element("th", { scope: "row" }, Study.chip(method), method), ...times.map(cell), Study.element("td", {}, leastOf(least)),
+    Study.element("td", { class: "what" }, Study.summaryOf(method))));
+  const head = ["time for an error of", ...budgets.map(String), "the least error", "how"];
   place.replaceChildren(verdictOf(points, view), Study.element("div", { class: "scroll" }, Study.element("table", {},
     Study.element("thead", {}, Study.element("tr", {}, ...head.map((text, k) => Study.element("th", { scope: "col", class: k > 0 && k < 4 ? "number" : "" }, text)))),
     Study.element("tbody", {}, ...rows))));
