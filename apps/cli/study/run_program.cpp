@@ -78,8 +78,8 @@ std::optional<std::string> run_program(const std::string& program, std::vector<s
     do_when_interrupted(kill_running);
     text = read_all(ends[0], most_seconds);
     if (!text) kill(child, SIGKILL);
-    do_when_interrupted(nullptr);
     if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) text.reset();
+    running = 0;  // it may close its stream long before it ends
   }
   close(ends[0]);
   return text;
