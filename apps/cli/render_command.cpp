@@ -5,6 +5,8 @@
 
 #include "apps/cli/commands.h"
 #include "apps/cli/made_by.h"
+#include "apps/cli/plan/effect_option.h"
+#include "apps/cli/plan/plan_json.h"
 #include "apps/cli/probe.h"
 #include "apps/common/messages.h"
 #include "apps/common/method_options.h"
@@ -31,7 +33,7 @@ struct Arguments {
   std::string method = kDefaultMethod, size = "640x480", probe;
   PictureOptions picture;
   std::vector<std::filesystem::path> images;
-  std::filesystem::path stats;
+  std::filesystem::path stats, plan;
   double exposure = 0.0;
   int warm_up = 0;
   OptionValues options;
@@ -112,6 +114,14 @@ void say_stages(const RenderResult& result) {
   complain(line);
 }
 
+/// Of the method auto: one line for each light for which, by its model, no method keeps what was asked for.
+void say_what_is_not_kept(const RenderResult& result) {
+  for (const MethodFrame& light : result.lights)
+    for (const Decision& each : light.decisions)
+      if (each.reason == "most-accurate" || each.reason == "within-time" || each.reason == "fastest")
+        complain("warning: light " + light.light + ": " + each.choice + ", since " + each.text);
+}
+
 void run(const Arguments& arguments) {
   RenderOptions options = checked_options(arguments);
   const ThreadLimit limit(arguments.common.threads);
@@ -120,6 +130,7 @@ void run(const Arguments& arguments) {
   apply(arguments.picture, scene);
   require_apart(arguments.outputs(), scene.files);
   options.antialias = scene.picture.antialias;
+  if (!arguments.plan.empty()) options.method = method_of_plans(arguments.plan, scene);
   RenderResult result;
   {
     ProgressLine progress("rendering");
@@ -130,6 +141,7 @@ void run(const Arguments& arguments) {
   if (std::ranges::all_of(result.surface.object, [](std::int32_t object) { return object < 0; }))
     complain("warning: the camera sees no surface; the image is empty");
   for (const std::string& warning : result.warnings) complain("warning: " + warning);
+  say_what_is_not_kept(result);
   if (arguments.common.verbose) say_stages(result);
   result.image.metadata = metadata_of(scene, arguments.scene.path.string(), result);
   const Display display{arguments.exposure, scene.picture.background};
@@ -176,10 +188,15 @@ void add_render_command(CLI::App& app) {
       .add_option("--probe", arguments->probe,
                   "Print what is at this pixel as JSON, with 4,096 reference rays; 0,0 is the top left")
       ->type_name("X,Y");
+  command
+      .add_option("--plan", arguments->plan,
+                  "Do what this file of penumbra plan --output says, in place of --method")
+      ->type_name("FILE");
   command.add_option("--warm-up", arguments->warm_up, "Frames rendered and thrown away before the timed one")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   add_method_options(command, arguments->options);
+  add_effect_option(command, arguments->options);
   add_common_options(command, arguments->common);
   command.footer(kFooter);
   command.callback([arguments] { run(*arguments); });

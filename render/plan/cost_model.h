@@ -5,6 +5,8 @@
 // measures and fits again; docs/plan.md has the residuals.
 #pragma once
 
+#include <span>
+
 #include "penumbra/render/plan/plan.h"
 
 namespace penumbra::detail {
@@ -21,12 +23,20 @@ struct Cost {
   double over(int frames) const { return frame + setup / frames; }
 };
 
-Cost cost_of_silhouette(const LightFacts& facts);
-Cost cost_of_rays(const LightFacts& facts, int samples);
+/// Numbers of rows that the model knows, the most accurate first.
+inline constexpr int kUsualRows = 64;
+std::span<const int> silhouette_rows();
+
+Cost cost_of_silhouette(const LightFacts& facts, int rows = kUsualRows);
+/// `areas_up_to`: the option of that name.
+Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to);
 Cost cost_of_reference(const LightFacts& facts, int samples);
 
+/// So many edges before the light take as long to integrate as so many rays to trace, about; 0 where that is hardly any.
+int areas_up_to(const LightFacts& facts, int samples);
+
 /// RMSE of V over the penumbra.
-double error_of_silhouette(const LightFacts& facts);
+double error_of_silhouette(const LightFacts& facts, int rows = kUsualRows);
 /// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts).
 double error_of_rays(const LightFacts& facts, int samples);
 /// The least square number of rays for that error, 4 to 65,536.

@@ -4,19 +4,13 @@
 #include <cstdio>
 
 #include "penumbra/mesh/error.h"
+#include "render/plan/candidates.h"
 #include "render/plan/cost_model.h"
 
 namespace penumbra {
 namespace {
 
 using namespace detail;
-
-/// A method that may be run, by the model.
-struct Candidate {
-  std::string method;
-  OptionValues options;
-  double milliseconds, error;
-};
 
 std::string shown(double value) {
   char text[32];
@@ -46,31 +40,6 @@ bool is_worth_leaving_out(const LightFacts& facts) {
   std::size_t faces = 0;
   for (const CasterFacts& caster : facts.casters) faces += caster.faces;
   return 2.0 * totals_of_reaching(facts).faces <= static_cast<double>(faces);
-}
-
-/// By so many rays.
-void add_rays(const LightFacts& facts, const PlanRequest& request, int samples, std::vector<Candidate>& out) {
-  const OptionValues options{{"samples", static_cast<std::uint64_t>(samples)}};
-  const double error = error_of_rays(facts, samples);
-  // Certificates are of V: rays that have them do not give O.
-  if (!facts.is_rectangle && !request.with_unoccluded)
-    out.push_back({"rays", options, cost_of_rays(facts, samples).over(request.frames), error});
-  out.push_back({"reference", options, cost_of_reference(facts, samples).over(request.frames), error});
-}
-
-/// The methods that may be run, in the order in which they are preferred at equal time: with as many rays as the error
-/// asks for, and with fewer where time is limited.
-std::vector<Candidate> candidates(const LightFacts& facts, const PlanRequest& request) {
-  constexpr int kLeast = 4;
-  std::vector<Candidate> out;
-  if (!facts.is_rectangle)
-    out.push_back(
-        {"silhouette", {}, cost_of_silhouette(facts).over(request.frames), error_of_silhouette(facts)});
-  int samples = rays_for(facts, request.max_error);
-  add_rays(facts, request, samples, out);
-  for (; request.max_ms > 0.0 && samples > kLeast; samples = std::max(kLeast, samples / 4))
-    add_rays(facts, request, std::max(kLeast, samples / 4), out);
-  return out;
 }
 
 struct Choice {
@@ -109,13 +78,14 @@ Choice choose(const std::vector<Candidate>& all, const PlanRequest& request) {
           "by the model no method keeps the error within " + error + "; it comes nearest"};
 }
 
-Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, const LightFacts& facts) {
+Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, const LightFacts& facts,
+                    double speed) {
   Decision out{.about = "method",
                .choice = choice.candidate->method,
                .reason = choice.reason,
                .text = choice.text,
                .numbers = {{"ms", choice.candidate->milliseconds}, {"error", choice.candidate->error}}};
-  // What it was compared with: each method once, with the most rays.
+  // What it was compared with: each method once, with the most rays or rows.
   for (const Candidate& each : all) {
     if (std::ranges::find(out.numbers, each.method + "_ms", &DecisionNumber::name) != out.numbers.end())
       continue;
@@ -125,6 +95,7 @@ Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, con
       out.numbers.push_back(
           {each.method + "_samples", static_cast<double>(std::get<std::uint64_t>(samples->second))});
   }
+  if (speed != 1.0) out.numbers.push_back({"assumed_speed", speed});
   const SampledFacts& sampled = facts.sampled;
   out.numbers.insert(out.numbers.end(), {{"penumbra_share", sampled.penumbra.share},
                                          {"edges_in_penumbra", sampled.penumbra.edges},
@@ -133,10 +104,9 @@ Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, con
   return out;
 }
 
-LightPlan& finish(LightPlan& plan, LightPlan::Action action, Decision why) {
+void finish(LightPlan& plan, LightPlan::Action action, Decision why) {
   plan.action = action;
   plan.decisions.push_back(std::move(why));
-  return plan;
 }
 
 void run(LightPlan& plan, const Candidate& chosen) {
@@ -146,56 +116,87 @@ void run(LightPlan& plan, const Candidate& chosen) {
   plan.error = chosen.error;
 }
 
-LightPlan& finish_hard(LightPlan& plan, Decision why) {
+void finish_hard(LightPlan& plan, Decision why) {
   why.about = "method";
   why.choice = plan.method = "hard";
-  return finish(plan, LightPlan::Action::kMethod, std::move(why));
+  finish(plan, LightPlan::Action::kMethod, std::move(why));
+}
+
+/// Notes which casters reach no receiver, and leaves them out where that is worth it. Returns whether any reaches one.
+bool leave_out(LightPlan& plan, const LightFacts& facts, EffectChoice wish) {
+  const bool worth =
+      wish == EffectChoice::kOn || (wish == EffectChoice::kPlanned && is_worth_leaving_out(facts));
+  bool any = false;
+  for (const CasterFacts& caster : facts.casters) {
+    const bool reaches = caster.reach == CasterReach::kMayReach;
+    any = any || reaches;
+    if (reaches) continue;
+    if (worth) plan.left_out.push_back(caster.object);
+    plan.decisions.push_back(about_caster(caster, worth));
+  }
+  return any;
+}
+
+/// Whether there is nothing for a method to do.
+bool decide_without_method(LightPlan& plan, const LightFacts& facts, const Effects& effects) {
+  const DecisionNumber receivers{"receivers", static_cast<double>(facts.receivers)};
+  if (facts.dark == facts.receivers) {
+    finish(plan, LightPlan::Action::kDark,
+           {.about = "light",
+            .choice = "nothing",
+            .reason = "reaches-no-receiver",
+            .text = "every receiver lies behind its plane or faces away from it",
+            .is_certificate = true,
+            .numbers = {receivers}});
+    return true;
+  }
+  if (effects.shadows == EffectChoice::kOff) {
+    finish(plan, LightPlan::Action::kUnshadowed,
+           {.about = "light", .choice = "no shadows", .reason = "told", .text = "shadows are off"});
+    return true;
+  }
+  if (leave_out(plan, facts, effects.culling) || effects.shadows == EffectChoice::kOn) return false;
+  finish(plan, LightPlan::Action::kUnshadowed,
+         {.about = "light",
+          .choice = "no shadows",
+          .reason = "no-caster-reaches",
+          .text = "no caster lies between it and a receiver",
+          .is_certificate = true,
+          .numbers = {receivers}});
+  return true;
+}
+
+/// Whether shadows are hard.
+bool decide_hard(LightPlan& plan, const LightFacts& facts, const PlanRequest& request) {
+  const EffectChoice penumbra = request.effects.penumbra;
+  if (facts.is_point)
+    finish_hard(plan, {.reason = "point-light",
+                       .text = "a point has no penumbra; one ray a receiver is exact",
+                       .is_certificate = true});
+  else if (penumbra == EffectChoice::kOff)
+    finish_hard(plan, {.reason = "told", .text = "penumbrae are off"});
+  else if (facts.widest_penumbra < request.hard_below && penumbra != EffectChoice::kOn)
+    finish_hard(
+        plan, {.reason = "narrow-penumbra",
+               .text = "no penumbra is as wide as " + shown(request.hard_below) + " pixels on flat surfaces",
+               .numbers = {{"widest_penumbra_pixels", facts.widest_penumbra}}});
+  return !plan.method.empty();
 }
 
 }  // namespace
 
 LightPlan make_plan(const LightFacts& facts, const PlanRequest& request) {
   if (!(request.max_error > 0.0)) throw UsageError("a plan's max-error must be above 0");
+  if (!(request.speed > 0.0)) throw UsageError("a plan's speed must be above 0");
   LightPlan plan;
   plan.facts = facts;
-  const auto receivers = static_cast<double>(facts.receivers);
-  if (facts.dark == facts.receivers)
-    return finish(plan, LightPlan::Action::kDark,
-                  {.about = "light",
-                   .choice = "nothing",
-                   .reason = "reaches-no-receiver",
-                   .text = "every receiver lies behind its plane or faces away from it",
-                   .is_certificate = true,
-                   .numbers = {{"receivers", receivers}}});
-  const bool worth = is_worth_leaving_out(facts);
-  bool any = false;
-  for (const CasterFacts& caster : facts.casters) {
-    const bool reaches = caster.reach == CasterReach::kMayReach;
-    any = any || reaches;
-    plan.left_out.push_back(!reaches && worth);
-    if (!reaches) plan.decisions.push_back(about_caster(caster, worth));
-  }
-  if (!any)
-    return finish(plan, LightPlan::Action::kUnshadowed,
-                  {.about = "light",
-                   .choice = "no shadows",
-                   .reason = "no-caster-reaches",
-                   .text = "no caster lies between it and a receiver",
-                   .is_certificate = true,
-                   .numbers = {{"receivers", receivers}}});
-  if (facts.is_point)
-    return finish_hard(plan, {.reason = "point-light",
-                              .text = "a point has no penumbra; one ray a receiver is exact",
-                              .is_certificate = true});
-  if (facts.widest_penumbra < request.hard_below)
-    return finish_hard(
-        plan, {.reason = "narrow-penumbra",
-               .text = "no penumbra is as wide as " + shown(request.hard_below) + " pixels on flat surfaces",
-               .numbers = {{"widest_penumbra_pixels", facts.widest_penumbra}}});
+  if (decide_without_method(plan, facts, request.effects) || decide_hard(plan, facts, request)) return plan;
   const std::vector<Candidate> all = candidates(facts, request);
+  if (all.empty()) throw UsageError("no method is left for this light; leave more effects planned");
   const Choice choice = choose(all, request);
   run(plan, *choice.candidate);
-  return finish(plan, LightPlan::Action::kMethod, why_chosen(choice, all, facts));
+  finish(plan, LightPlan::Action::kMethod, why_chosen(choice, all, facts, request.speed));
+  return plan;
 }
 
 }  // namespace penumbra

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "penumbra/render/method_option.h"
+#include "penumbra/render/plan/effects.h"
 #include "penumbra/render/support/decision.h"
 
 namespace penumbra {
@@ -83,6 +84,9 @@ struct PlanRequest {
   bool with_unoccluded = false;
   /// The hierarchies that a method makes once are used for so many frames.
   int frames = 1;
+  /// How many times as fast this machine is as that of the model's fit. Only max_ms and the times that are said depend on it.
+  double speed = 1.0;
+  Effects effects{};
 };
 
 struct LightPlan {
@@ -98,9 +102,9 @@ struct LightPlan {
   /// For kMethod: its name and options.
   std::string method{};
   OptionValues options{};
-  /// One flag a caster of the facts: it is left out of what the method is made for. Only where that halves the faces: what
-  /// is made once is else shared with other lights.
-  std::vector<char> left_out{};
+  /// Objects of the scene that cast no shadow here, ascending: left out of what the method is made for. Only where that halves
+  /// the faces: what is made once is else shared with other lights.
+  std::vector<std::size_t> left_out{};
   /// For kMethod, by the model: milliseconds on the machine of the fit, and RMSE of V over the penumbra.
   double milliseconds = 0.0, error = 0.0;
   std::vector<Decision> decisions{};
@@ -108,7 +112,7 @@ struct LightPlan {
   LightFacts facts{};
 };
 
-/// Cost O(casters). Throws UsageError for a max_error that is not above 0.
+/// Cost O(casters). Throws UsageError for a max_error or speed that is not above 0, and for effects that leave no method.
 LightPlan make_plan(const LightFacts& facts, const PlanRequest& request);
 
 }  // namespace penumbra

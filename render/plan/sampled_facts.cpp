@@ -1,5 +1,7 @@
 #include "render/plan/sampled_facts.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -87,6 +89,19 @@ Seen see(const RayScene& rays, const LightShape& light, const Receivers& receive
   return out;
 }
 
+/// Summed in their order, so that threads change nothing.
+SampledPart mean_of(std::span<const SampledPart> each, double share) {
+  SampledPart out{.share = share};
+  const auto count = static_cast<double>(each.size());
+  for (const SampledPart& one : each) {
+    out.edges += one.edges / count;
+    out.merged_edges += one.merged_edges / count;
+    out.edge_length += one.edge_length / count;
+    out.boxes += one.boxes / count;
+  }
+  return out;
+}
+
 }  // namespace
 
 SampledFacts sample_light(const Scene& objects, const RayScene& rays, const CircularLight& circle,
@@ -103,16 +118,18 @@ SampledFacts sample_light(const Scene& objects, const RayScene& rays, const Circ
   const EdgeSample edges(objects, circle, casters, kEdges);
   const FaceSample faces(objects, casters, kFaces);
   const auto look = [&](const std::vector<std::uint32_t>& part) {
-    SampledPart sums{.share = static_cast<double>(part.size()) / static_cast<double>(some.size())};
     const std::size_t count = std::min(part.size(), kSeeing);
-    for (std::size_t i = 0; i < count; ++i) {
-      const EdgeSample::Crossing crossing = edges.crossing(receivers.points[part[i]]);
-      sums.edges += crossing.edges / static_cast<double>(count);
-      sums.merged_edges += crossing.merged / static_cast<double>(count);
-      sums.edge_length += crossing.length / static_cast<double>(count);
-      sums.boxes += boxes_before(faces, rays, circle, receivers, part[i]) / static_cast<double>(count);
-    }
-    return sums;
+    std::vector<SampledPart> each(count);
+    rays.arena().execute([&] {
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+        const EdgeSample::Crossing crossing = edges.crossing(receivers.points[part[i]]);
+        each[i] = {.edges = crossing.edges,
+                   .merged_edges = crossing.merged,
+                   .edge_length = crossing.length,
+                   .boxes = boxes_before(faces, rays, circle, receivers, part[i])};
+      });
+    });
+    return mean_of(each, static_cast<double>(part.size()) / static_cast<double>(some.size()));
   };
   out.lit = look(seen.lit);
   out.penumbra = look(seen.partly);

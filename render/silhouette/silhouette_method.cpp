@@ -1,5 +1,7 @@
 #include "render/silhouette/silhouette_method.h"
 
+#include <algorithm>
+
 #include "penumbra/mesh/stage_clock.h"
 #include "render/rays/point_light.h"
 #include "render/rays/ray_methods.h"
@@ -41,6 +43,10 @@ Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
           {"open", open}};
 }
 
+// Speed: about so many edges are looked at in the time of one ray. Looking for a certificate then takes no longer than to do
+// without.
+constexpr std::size_t kEdgesOfRay = 24, kFewEdges = 64;
+
 constexpr const char* kAtrous = "a-trous";
 
 std::vector<OptionSchema> rays_options() {
@@ -51,6 +57,12 @@ std::vector<OptionSchema> rays_options() {
        .usual = std::string("off"),
        .unit = {},
        .help = "A filter over a picture's pixels, guided by position and normal, for few rays"});
+  options.push_back({.name = "areas-up-to",
+                     .domain = IntegerRange{0, 65'536},
+                     .usual = std::uint64_t{0},
+                     .unit = "edges across the light",
+                     .help = "Receivers that see no more edges are integrated as by silhouette; 0: none is",
+                     .steps = std::vector<OptionValue>{std::uint64_t{20}}});
   return options;
 }
 
@@ -109,7 +121,7 @@ class RaysMethod : public BySilhouettes {
   void see(const MethodInput& input, detail::EdgeHierarchies& hierarchies, MethodResult& out) const override {
     SilhouetteResult seen =
         silhouette_visibility(scene_, input.rays, hierarchies, input.light, input.receivers,
-                              {.integrate = false}, part_of(input.progress, 0.0, 0.5));
+                              rays_certificates(input.options), part_of(input.progress, 0.0, 0.5));
     StageClock clock;
     const ReferenceResult traced =
         trace_reference(input.rays, input.light, input.receivers, seen.open, sampling_of(input.options),
@@ -146,6 +158,14 @@ std::vector<OptionSchema> silhouette_options() {
        .unit = "light radii",
        .help =
            "How far silhouettes of fine casters may lie off by taking faces for one; 0: none are merged"}};
+}
+
+SilhouetteOptions rays_certificates(const OptionValues& options) {
+  const auto up_to = static_cast<std::size_t>(integer_of(options, "areas-up-to"));
+  const auto samples = static_cast<std::size_t>(integer_of(options, "samples"));
+  return {.integrate = up_to > 0,
+          .most_segments = up_to,
+          .most_listed = std::max(kFewEdges, kEdgesOfRay * samples)};
 }
 
 MethodInfo silhouette_method() {

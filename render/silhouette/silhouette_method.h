@@ -5,6 +5,8 @@
 
 namespace penumbra {
 
+struct SilhouetteOptions;
+
 /// Exact areas between the edges that each receiver sees (silhouette_visibility.h).
 MethodInfo silhouette_method();
 /// Stratified rays, but only where the silhouette method certifies nothing.
@@ -12,5 +14,8 @@ MethodInfo rays_method();
 
 /// The options silhouette-rows and silhouette-tolerance.
 std::vector<OptionSchema> silhouette_options();
+
+/// What the method rays asks of silhouettes before it traces rays, by its options.
+SilhouetteOptions rays_certificates(const OptionValues& options);
 
 }  // namespace penumbra

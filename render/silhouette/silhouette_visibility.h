@@ -38,9 +38,14 @@ struct SilhouetteOptions {
   int rows = 64;
   /// false: nothing lies below a horizon; visibility is then O.
   bool horizon = true;
-  /// false: certificates only. Receivers without one are listed in `open`; a receiver that would have to look at
-  /// more than some 8,000 edges is not tried.
+  /// false: certificates only. Receivers without one are listed in `open`.
   bool integrate = true;
+  /// Speed: receivers that more segments cross the disk for are left `open`, not integrated; 0: none is. No effect where
+  /// `integrate` is false.
+  std::size_t most_segments = 0;
+  /// Speed: receivers that would have to look at more edges than this are left `open`, and so are groups whose lists take as
+  /// long to narrow; 0: none is.
+  std::size_t most_listed = 0;
   /// Accuracy: how far silhouettes of merged faces may lie off the true ones, light radii in the light's plane, 0 to
   /// 0.1; 0: no faces are merged. Visibility changes by 2.5 times that or less (merge/merged_edges.h). Faces are merged
   /// only in casters of 1,024 faces or more, and never where `integrate` is false.
@@ -92,7 +97,7 @@ struct SilhouetteResult {
   std::vector<float> visibility;
   /// One a receiver: -1 not certified, 0 lit, 2 in umbra or behind the light.
   std::vector<std::int8_t> region;
-  /// Where `integrate` is false: receivers whose visibility is not known, ascending.
+  /// Receivers whose visibility is not known, ascending: none where all are integrated.
   std::vector<std::uint32_t> open;
   StageTimes stages;
   SilhouetteCounts counts;

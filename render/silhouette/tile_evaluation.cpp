@@ -11,9 +11,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-constexpr std::size_t kShortList = 24;        // edges; shorter lists are not narrowed
-constexpr std::size_t kMostToCertify = 8192;  // edges; with more, rays cost less than to look for what is
-                                              // hardly ever found there
+constexpr std::size_t kShortList = 24;   // edges; shorter lists are not narrowed
 constexpr std::size_t kManyBlocks = 64;  // lists of more may be narrowed down to receivers block by block,
 constexpr double kMostKept = 0.4;        // if one receiver keeps at most that share
 constexpr double kMostMistaken = 2.0;    // of the disk, over how far silhouettes may be moved
@@ -101,7 +99,9 @@ void Evaluation::look_around(const Shaft& shaft, Workspace& w) const {
   w.certain.resize(w.receivers.size());
   w.right.resize(w.receivers.size());
   w.tasks.clear();
-  if (are_blocks_better(w)) {
+  if (is_too_long(count_blocks(w.blocks[0]) * BandTree::kFanOut, w.receivers.size())) {
+    open(0, w.receivers.size(), w);
+  } else if (are_blocks_better(w)) {
     w.counts.listed_edges += count_blocks(w.blocks[0]) * BandTree::kFanOut;
     divide_blocks(0, w.receivers.size(), 0, w);
   } else {
@@ -129,6 +129,15 @@ bool Evaluation::is_reached(const Shaft& shaft) const {
                      [&](const Bounds& box) { return !shaft.misses(box.low, box.high); });
 }
 
+/// To narrow a list down for so many receivers takes as long as for each of them to look at most_listed edges.
+bool Evaluation::is_too_long(std::size_t edges, std::size_t receivers) const {
+  return options_.most_listed > 0 && edges > options_.most_listed * receivers;
+}
+
+void Evaluation::open(std::size_t first, std::size_t last, Workspace& w) const {
+  for (std::size_t i = first; i < last; ++i) w.open.push_back(w.receivers[i].index);
+}
+
 /// Receivers first to last, one by one: with the tile's list where it is short, else in parts that lie apart,
 /// each with what is left of the list.
 void Evaluation::divide(std::size_t first, std::size_t last, Workspace& w) const {
@@ -139,6 +148,7 @@ void Evaluation::divide(std::size_t first, std::size_t last, Workspace& w) const
     divide(first, middle, w);
     return divide(middle, last, w);
   }
+  if (is_too_long(w.list.size(), part.size())) return open(first, last, w);
   Shaft shaft(part, band_.extent);
   shaft.tighten(part);
   narrow(w.list, shaft, w.edges);
@@ -192,7 +202,7 @@ void Evaluation::evaluate(std::size_t first, std::size_t last, const EdgeList& l
 
 void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) const {
   const TileReceiver& r = w.receivers[i];
-  if (!options_.integrate && list.size() > kMostToCertify) return w.open.push_back(r.index);
+  if (is_too_long(list.size(), 1)) return w.open.push_back(r.index);
   project_edges(list, r.x, r.horizon, rounding_, w.projected);
   w.counts.projected_edges += list.size();
   judge(i, w);
@@ -200,7 +210,8 @@ void Evaluation::evaluate(std::size_t i, const EdgeList& list, Workspace& w) con
 
 void Evaluation::evaluate_blocks(std::size_t i, const std::vector<NodeMask>& list, Workspace& w) const {
   const TileReceiver& r = w.receivers[i];
-  const std::size_t most = options_.integrate ? blocks_.count() : kMostToCertify / BandTree::kFanOut;
+  const std::size_t most =
+      options_.most_listed > 0 ? options_.most_listed / BandTree::kFanOut : blocks_.count();
   if (!blocks_.test_edges(tree_, list, r, most, w.projected.tested)) return w.open.push_back(r.index);
   project_edges(band_, w.projected.tested, r.x, r.horizon, rounding_, w.projected);
   w.counts.projected_edges += BandTree::kFanOut * w.projected.tested.looked_into;
@@ -257,7 +268,8 @@ void Evaluation::judge(std::size_t i, Workspace& w) const {
     result.resolved = true;
     if (!aim_surely(i, {}, part, w)) return;
     add_task(w.tasks, r.index, middle, i);
-  } else if (options_.integrate) {
+  } else if (options_.integrate &&
+             (options_.most_segments == 0 || w.projected.segments.size() <= options_.most_segments)) {
     integrate(i, part, w);
   } else {
     w.open.push_back(w.receivers[i].index);

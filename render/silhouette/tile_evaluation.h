@@ -101,6 +101,8 @@ class Evaluation {
   bool aim_surely(std::size_t i, std::span<const Segment> segments, const DiskPart& part, Workspace& w) const;
   void wait(std::size_t i, Workspace& w) const;
   bool are_blocks_better(Workspace& w) const;
+  bool is_too_long(std::size_t edges, std::size_t receivers) const;
+  void open(std::size_t first, std::size_t last, Workspace& w) const;
   void divide(std::size_t first, std::size_t last, Workspace& w) const;
   void divide_blocks(std::size_t first, std::size_t last, std::size_t level, Workspace& w) const;
   void evaluate(std::size_t first, std::size_t last, const EdgeList& list, Workspace& w) const;

@@ -1,0 +1,123 @@
+// What the planner is fitted to and judged by: `./run plan-model`, `./run plan-check`. Rows of JSON, one a scene; those that
+// a file has are not measured again.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <set>
+
+#include "penumbra/mesh/error.h"
+#include "tests/bench/plan/cases.h"
+#include "tests/bench/plan/measure.h"
+
+namespace penumbra::bench {
+namespace {
+
+constexpr const char* kHelp = R"(penumbra_plan_bench WHAT FILE [CASE...]
+  fit      scenes of the fit at 320x240
+  foolish  scenes on which some method is foolish, at 320x240, and what auto does for errors of .05 to .002
+  random   random-FIRST random-LAST, at 240x180, and what auto does for one error each
+Adds a line of JSON to FILE for each scene that it has not. K/N before the cases: of N shares the Kth, from 0.)";
+
+OptionValues rays(std::uint64_t samples, std::uint64_t areas_up_to = 0) {
+  return {{"samples", samples}, {"areas-up-to", areas_up_to}};
+}
+
+std::vector<Setting> fit_settings() {
+  std::vector<Setting> out{{"silhouette", "silhouette", {}}};
+  for (const std::uint64_t rows : {16, 32})
+    out.push_back({"silhouette-" + std::to_string(rows), "silhouette", {{"silhouette-rows", rows}}});
+  for (const std::uint64_t n : {16, 144}) {
+    const std::string text = std::to_string(n);
+    out.push_back({"rays-" + text, "rays", rays(n)});
+    out.push_back({"areas-" + text, "rays", rays(n, n / 4)});
+    out.push_back({"reference-" + text, "reference", {{"samples", n}}});
+  }
+  return out;
+}
+
+/// Those that are compared with auto.
+std::vector<Setting> ladder() {
+  std::vector<Setting> out{{"silhouette", "silhouette", {}}};
+  for (const std::uint64_t rows : {16, 32})
+    out.push_back({"silhouette-" + std::to_string(rows), "silhouette", {{"silhouette-rows", rows}}});
+  for (const std::uint64_t n : {16, 64, 256}) {
+    const std::string text = std::to_string(n);
+    out.push_back({"rays-" + text, "rays", rays(n)});
+    out.push_back({"areas-" + text, "rays", rays(n, n / 4)});
+    out.push_back({"reference-" + text, "reference", {{"samples", n}}});
+  }
+  return out;
+}
+
+/// Another one for each scene in turn.
+double budget_of(std::uint64_t seed) {
+  constexpr double kBudgets[] = {0.05, 0.03, 0.02, 0.01, 0.005, 0.003};
+  return kBudgets[seed % std::size(kBudgets)];
+}
+
+std::set<std::string> names_in(const std::string& file) {
+  std::set<std::string> names;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const auto row = nlohmann::json::parse(line, nullptr, false);
+    if (!row.is_discarded()) names.insert(row.at("name").get<std::string>());
+  }
+  return names;
+}
+
+nlohmann::json measure(const std::string& what, const std::string& name) {
+  if (what == "fit") return MeasuredScene(plan_case(name), {}).row(fit_settings(), {});
+  if (what == "foolish")
+    return MeasuredScene(plan_case(name), {}).row(ladder(), {0.05, 0.02, 0.01, 0.005, 0.002});
+  const auto seed = static_cast<std::uint64_t>(std::stoull(name.substr(name.find('-') + 1)));
+  return MeasuredScene(plan_case(name), {.width = 240, .height = 180, .judged = 600, .judge_samples = 2'048})
+      .row(ladder(), {budget_of(seed)});
+}
+
+std::vector<std::string> random_cases(const std::vector<std::string>& ends) {
+  if (ends.size() != 2) throw UsageError("random needs two seeds: the first and the last");
+  std::vector<std::string> out;
+  for (auto seed = std::stoull(ends[0]); seed <= std::stoull(ends[1]); ++seed)
+    out.push_back("random-" + std::to_string(seed));
+  return out;
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words.size() < 2 || (words[0] != "fit" && words[0] != "foolish" && words[0] != "random")) {
+    std::puts(kHelp);
+    return 2;
+  }
+  std::vector<std::string> names(words.begin() + 2, words.end());
+  std::size_t share = 0, shares = 1;
+  if (!names.empty() && names[0].find('/') != std::string::npos) {
+    share = std::stoul(names[0]);
+    shares = std::stoul(names[0].substr(names[0].find('/') + 1));
+    names.erase(names.begin());
+  }
+  if (words[0] == "random") names = random_cases(names);
+  if (names.empty()) names = words[0] == "fit" ? fit_cases() : foolish_cases();
+  const std::set<std::string> known = names_in(words[1]);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    if (i % shares != share || known.contains(name)) continue;
+    nlohmann::json row = measure(words[0], name);
+    row["name"] = name;
+    std::ofstream(words[1], std::ios::app) << row.dump() + "\n" << std::flush;
+    std::printf("%s\n", name.c_str());
+    std::fflush(stdout);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace penumbra::bench
+
+int main(int argc, char** argv) {
+  try {
+    return penumbra::bench::run({argv + 1, argv + argc});
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "penumbra_plan_bench: %s\n", e.what());
+    return 1;
+  }
+}
