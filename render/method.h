@@ -27,6 +27,9 @@
 namespace penumbra {
 
 class RayScene;
+namespace detail {
+struct BoxedGroups;
+}  // namespace detail
 
 /// What a method is asked. Everything is owned by the caller and stays until the call returns.
 struct MethodInput {
@@ -41,6 +44,8 @@ struct MethodInput {
   /// MethodResult::textures is wanted.
   bool keep_textures = false;
   const Progress& progress;
+  /// The receivers in groups (internal header render/receivers/receiver_box.h), where the caller has made them already.
+  const detail::BoxedGroups* groups = nullptr;
 };
 
 struct MethodResult {

@@ -73,9 +73,10 @@ class PlannedMethod : public Method {
  protected:
   const Scene& objects() const { return objects_; }
 
-  MethodResult follow(const MethodInput& input, const LightPlan& plan) {
+  /// `groups`: the receivers, or nullptr.
+  MethodResult follow(const MethodInput& input, const LightPlan& plan, const BoxedGroups* groups) {
     StageClock clock;
-    if (plan.action == LightPlan::Action::kMethod) return run_method(input, plan);
+    if (plan.action == LightPlan::Action::kMethod) return run_method(input, plan, groups);
     MethodResult out = see_unshadowed(input);
     clock.finish("unshadowed");
     out.stages = clock.stages();
@@ -83,7 +84,7 @@ class PlannedMethod : public Method {
   }
 
  private:
-  MethodResult run_method(const MethodInput& input, const LightPlan& plan) {
+  MethodResult run_method(const MethodInput& input, const LightPlan& plan, const BoxedGroups* groups) {
     const MethodInfo& info = method_named(plan.method);
     require_taken(info, input.light, input.receivers, input.with_unoccluded);
     const OptionValues options = completed(info.options, plan.options);
@@ -95,7 +96,8 @@ class PlannedMethod : public Method {
               .options = options,
               .with_unoccluded = input.with_unoccluded,
               .keep_textures = input.keep_textures,
-              .progress = input.progress});
+              .progress = input.progress,
+              .groups = groups});
   }
 
   /// The scene without these objects' shadows, or one with more that is there already: what is made once is not made again. While a
@@ -125,7 +127,7 @@ class AutoMethod : public PlannedMethod {
         measure_light(objects(), input.rays, input.light, input.receivers, boxes_of(input), request),
         request);
     clock.finish("plan");
-    MethodResult out = follow(input, plan);
+    MethodResult out = follow(input, plan, &kept_->groups);
     if (out.region.empty()) out.region.assign(input.receivers.size(), -1);
     out.stages.insert(out.stages.begin(), clock.stages().begin(), clock.stages().end());
     out.decisions = std::move(plan.decisions);
@@ -133,7 +135,7 @@ class AutoMethod : public PlannedMethod {
   }
 
   void forget() override {
-    boxes_.reset();
+    kept_.reset();
     PlannedMethod::forget();
   }
 
@@ -141,13 +143,18 @@ class AutoMethod : public PlannedMethod {
   /// Kept while the receivers stay the same.
   const ReceiverBoxes& boxes_of(const MethodInput& input) {
     const std::uint64_t revision = input.receivers.revision;
-    if (!boxes_ || revision == 0 || revision != revision_)
-      input.rays.arena().execute([&] { boxes_.emplace(input.receivers); });
+    if (!kept_ || revision == 0 || revision != revision_)
+      input.rays.arena().execute([&] { kept_.emplace(input.receivers); });
     revision_ = revision;
-    return *boxes_;
+    return kept_->boxes;
   }
 
-  std::optional<ReceiverBoxes> boxes_;
+  struct Kept {
+    explicit Kept(const Receivers& receivers) : groups(receivers), boxes(groups) {}
+    BoxedGroups groups;
+    ReceiverBoxes boxes;
+  };
+  std::optional<Kept> kept_;
   std::uint64_t revision_ = 0;
 };
 
@@ -161,7 +168,7 @@ class GivenPlanMethod : public PlannedMethod {
     const auto at = std::ranges::find(lights_, input.light) - lights_.begin();
     if (at == std::ssize(lights_)) throw UsageError("there is no plan for this light; make plans again");
     const LightPlan& plan = plans_[static_cast<std::size_t>(at)];
-    MethodResult out = follow(input, plan);
+    MethodResult out = follow(input, plan, input.groups);
     if (out.region.empty()) out.region.assign(input.receivers.size(), -1);
     out.decisions = plan.decisions;
     return out;

@@ -15,7 +15,7 @@ struct Candidate {
   double milliseconds, error;
 };
 
-/// In the order in which they are preferred at equal time: with as many rays and rows as the error asks for, and with fewer where
+/// In the order in which they are preferred at equal time: with as many rays as the error asks for, and with fewer where
 /// time is limited. Empty where the request's effects leave none.
 std::vector<Candidate> candidates(const LightFacts& facts, const PlanRequest& request);
 

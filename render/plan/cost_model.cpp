@@ -1,7 +1,6 @@
 #include "render/plan/cost_model.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "render/plan/cost_model_fit.h"
@@ -24,16 +23,42 @@ double mean(const SampledFacts& sampled, const Number& number) {
   return sum;
 }
 
-double nanoseconds_of_ray(const CasterTotals& casters, const SampledPart& part) {
-  return fit::kRay + fit::kRayLogFaces * std::log2(1.0 + casters.faces) +
-         fit::kRayRootOfBoxes * std::sqrt(part.boxes) + fit::kRayRootOfEdges * std::sqrt(part.edges) +
-         fit::kRayRootOfBoth * std::sqrt(part.boxes * part.edges);
+/// Of a receiver with so many rays.
+double nanoseconds_of_rays(const CasterTotals& casters, const SampledPart& part, int samples) {
+  const double ray = fit::kRay + fit::kRayLogFaces * std::log2(1.0 + casters.faces) +
+                     fit::kRayRootOfBoxes * std::sqrt(part.boxes) +
+                     fit::kRayRootOfEdges * std::sqrt(part.edges) +
+                     fit::kRayRootOfBoth * std::sqrt(part.boxes * part.edges);
+  return fit::kRayReceiver + samples * ray;
 }
 
-/// Of a receiver whose area is integrated by the usual number of rows.
+/// Of a receiver whose area is integrated.
 double nanoseconds_of_area(const SampledPart& part) {
   return fit::kSilhouetteMerged * part.merged_edges + fit::kSilhouetteRootOfEdges * std::sqrt(part.edges) +
          fit::kSilhouetteLength * part.edge_length;
+}
+
+/// Of hierarchies over edges, and over those of merged faces.
+double nanoseconds_of_setup(double edges, bool merges) {
+  const double merging = fit::kMergingEdge * edges + fit::kMergingEdgeTimesRoot * edges * std::sqrt(edges);
+  return fit::kHierarchyEdge * edges + (merges ? merging : 0.0);
+}
+
+/// Of a part's receivers, those that see few edges: their share, and that of the part's edges that these see.
+struct Few {
+  double share = 0.0, of_edges = 0.0;
+};
+Few few_of(const SampledPart& part, int up_to) {
+  if (up_to <= 0) return {};
+  if (part.edges_each.empty()) return part.edges <= up_to ? Few{1.0, 1.0} : Few{};
+  double count = 0.0, few = 0.0, all = 0.0;
+  for (const double edges : part.edges_each) {
+    all += edges;
+    if (edges > up_to) continue;
+    ++count;
+    few += edges;
+  }
+  return {count / static_cast<double>(part.edges_each.size()), all > 0.0 ? few / all : 1.0};
 }
 
 double root_of_edges_of(const SampledPart& part) {
@@ -41,19 +66,6 @@ double root_of_edges_of(const SampledPart& part) {
 }
 double boxes_of(const SampledPart& part) {
   return part.boxes;
-}
-
-/// By how much another number of rows changes areas of many edges: its time, and RMSE over the penumbra.
-struct Rows {
-  int rows;
-  double time, error;
-};
-constexpr std::array<Rows, 3> kRows{{{64, 1.0, fit::kErrorOfMany64},
-                                     {32, fit::kTimeOf32Rows, fit::kErrorOfMany32},
-                                     {16, fit::kTimeOf16Rows, fit::kErrorOfMany16}}};
-
-const Rows& rows_named(int rows) {
-  return *std::ranges::find(kRows, rows, &Rows::rows);
 }
 
 // Up to so many edges are integrated exactly, without rows (docs/methods/silhouette.md).
@@ -77,21 +89,27 @@ CasterTotals totals_of_reaching(const LightFacts& facts) {
   return out;
 }
 
-std::span<const int> silhouette_rows() {
-  static constexpr std::array<int, kRows.size()> rows{kRows[0].rows, kRows[1].rows, kRows[2].rows};
-  return rows;
+bool is_worth_leaving_out(const LightFacts& facts) {
+  std::size_t faces = 0;
+  for (const CasterFacts& caster : facts.casters) faces += caster.faces;
+  return 2.0 * totals_of_reaching(facts).faces <= static_cast<double>(faces);
 }
 
-Cost cost_of_silhouette(const LightFacts& facts, int rows) {
-  const double edges = totals_of_reaching(facts).edges, times = rows_named(rows).time;
+double edges_of_method(const LightFacts& facts) {
+  if (is_worth_leaving_out(facts)) return totals_of_reaching(facts).edges;
+  double edges = 0.0;
+  for (const CasterFacts& caster : facts.casters) edges += static_cast<double>(caster.edges);
+  return edges;
+}
+
+Cost cost_of_silhouette(const LightFacts& facts, bool merges) {
+  const double edges = totals_of_reaching(facts).edges;
   const SampledFacts& s = facts.sampled;
-  const double areas = mean(s, [&](const SampledPart& part) {
-    return (part.edges > kFewEdges ? times : 1.0) * nanoseconds_of_area(part);
-  });
+  const double areas = mean(s, nanoseconds_of_area);
   return in_milliseconds(
       reached(facts) * (fit::kSilhouetteReceiver + areas + fit::kSilhouetteBox * mean(s, boxes_of)) +
-          fit::kSilhouetteBandEdge * edges,
-      fit::kHierarchyEdge * edges);
+          fit::kSilhouetteCasterEdge * edges + fit::kSilhouetteBandEdge * s.band_edges,
+      nanoseconds_of_setup(edges_of_method(facts), merges));
 }
 
 Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
@@ -100,11 +118,10 @@ Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
   // Those that certificates leave open: a part of the penumbra, and of other receivers before which edges lie. Of these some
   // have few edges, and areas.
   const auto open = [&](const SampledPart& part, double share) {
-    const double traced = samples * nanoseconds_of_ray(casters, part);
-    const double few =
-        part.edges > 0.0 ? std::min(1.0, areas_up_to / part.edges) : (areas_up_to > 0 ? 1.0 : 0.0);
+    const Few few = few_of(part, areas_up_to);
     return part.share * share *
-           (few * std::min(few * nanoseconds_of_area(part), traced) + (1.0 - few) * traced);
+           (few.of_edges * nanoseconds_of_area(part) +
+            (1.0 - few.share) * nanoseconds_of_rays(casters, part, samples));
   };
   const double rest = open(s.hidden, std::min(1.0, s.hidden.edges)) + open(s.lit, std::min(1.0, s.lit.edges));
   const double looked_at =
@@ -113,8 +130,8 @@ Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
       reached(facts) * (fit::kRaysReceiver + fit::kRaysRootOfEdges * mean(s, root_of_edges_of) +
                         fit::kRaysEdge * looked_at + fit::kRaysBox * mean(s, boxes_of) +
                         fit::kRaysOpenPenumbra * open(s.penumbra, 1.0) + fit::kRaysOpenRest * rest) +
-          fit::kRaysBandEdge * casters.edges,
-      fit::kHierarchyEdge * casters.edges);
+          fit::kRaysCasterEdge * casters.edges + fit::kRaysBandEdge * s.band_edges,
+      nanoseconds_of_setup(edges_of_method(facts), false));
 }
 
 int areas_up_to(const LightFacts& facts, int samples) {
@@ -122,32 +139,38 @@ int areas_up_to(const LightFacts& facts, int samples) {
   constexpr double kLeast = 3.0, kMost = 65'536.0;
   const SampledPart& part = facts.sampled.penumbra;
   const double edge = part.edges > 0.0 ? nanoseconds_of_area(part) / part.edges : kUsual;
-  const double edges = samples * nanoseconds_of_ray(totals_of_reaching(facts), part) / std::max(edge, 1.0);
+  const double edges = nanoseconds_of_rays(totals_of_reaching(facts), part, samples) / std::max(edge, 1.0);
   return edges < kLeast ? 0 : static_cast<int>(std::min(edges, kMost));
 }
 
 Cost cost_of_reference(const LightFacts& facts, int samples) {
   const CasterTotals casters = totals_of_reaching(facts);
-  const double ray =
-      mean(facts.sampled, [&](const SampledPart& p) { return nanoseconds_of_ray(casters, p); });
-  return in_milliseconds(reached(facts) * samples * ray, 0.0);
+  const double each =
+      mean(facts.sampled, [&](const SampledPart& p) { return nanoseconds_of_rays(casters, p, samples); });
+  return in_milliseconds(reached(facts) * each, 0.0);
 }
 
-double error_of_silhouette(const LightFacts& facts, int rows) {
-  return facts.sampled.penumbra.edges > kFewEdges ? rows_named(rows).error : fit::kErrorOfFew;
+double error_of_silhouette(const LightFacts& facts) {
+  return facts.sampled.penumbra.edges > kFewEdges ? fit::kErrorOfMany : fit::kErrorOfFew;
 }
 
-double error_of_rays(const LightFacts& facts, int samples) {
+double error_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
   const double n = samples;
   const double by_chance = facts.sampled.variance / n,
                by_strata = facts.sampled.boundary / (n * std::sqrt(n));
-  return by_chance + by_strata > 0.0 ? std::sqrt(by_chance * by_strata / (by_chance + by_strata)) : 0.0;
+  if (!(by_chance + by_strata > 0.0)) return 0.0;
+  const double traced = 1.0 - few_of(facts.sampled.penumbra, areas_up_to).share;
+  const double of_areas = areas_up_to > 0 ? error_of_silhouette(facts) : 0.0;
+  return std::hypot(of_areas,
+                    fit::kErrorOfRays * std::sqrt(traced * by_chance * by_strata / (by_chance + by_strata)));
 }
 
-int rays_for(const LightFacts& facts, double error) {
+int rays_for(const LightFacts& facts, double error, bool with_areas) {
   constexpr int kLeast = 2, kMost = 256;  // a side
   for (int side = kLeast; side < kMost; ++side)
-    if (error_of_rays(facts, side * side) <= error) return side * side;
+    for (const int samples : {side * side, side * (side + 1)})
+      if (error_of_rays(facts, samples, with_areas ? areas_up_to(facts, samples) : 0) <= error)
+        return samples;
   return kMost * kMost;
 }
 

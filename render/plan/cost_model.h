@@ -5,8 +5,6 @@
 // measures and fits again; docs/plan.md has the residuals.
 #pragma once
 
-#include <span>
-
 #include "penumbra/render/plan/plan.h"
 
 namespace penumbra::detail {
@@ -16,6 +14,11 @@ struct CasterTotals {
   double faces = 0.0, edges = 0.0;
 };
 CasterTotals totals_of_reaching(const LightFacts& facts);
+/// Whether a method is made for the casters that reach alone: it then has hierarchies of its own, so other lights and frames do not
+/// share theirs.
+bool is_worth_leaving_out(const LightFacts& facts);
+/// Edges of the casters that a method is made for.
+double edges_of_method(const LightFacts& facts);
 
 /// Milliseconds of a frame's visibility, and of what is made once.
 struct Cost {
@@ -23,11 +26,8 @@ struct Cost {
   double over(int frames) const { return frame + setup / frames; }
 };
 
-/// Numbers of rows that the model knows, the most accurate first.
-inline constexpr int kUsualRows = 64;
-std::span<const int> silhouette_rows();
-
-Cost cost_of_silhouette(const LightFacts& facts, int rows = kUsualRows);
+/// `merges`: fine faces are merged.
+Cost cost_of_silhouette(const LightFacts& facts, bool merges = true);
 /// `areas_up_to`: the option of that name.
 Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to);
 Cost cost_of_reference(const LightFacts& facts, int samples);
@@ -36,10 +36,12 @@ Cost cost_of_reference(const LightFacts& facts, int samples);
 int areas_up_to(const LightFacts& facts, int samples);
 
 /// RMSE of V over the penumbra.
-double error_of_silhouette(const LightFacts& facts, int rows = kUsualRows);
-/// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts).
-double error_of_rays(const LightFacts& facts, int samples);
-/// The least square number of rays for that error, 4 to 65,536.
-int rays_for(const LightFacts& facts, double error);
+double error_of_silhouette(const LightFacts& facts);
+/// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts), times what nine of ten scenes keep; but no error
+/// where there are areas.
+double error_of_rays(const LightFacts& facts, int samples, int areas_up_to = 0);
+/// The least number of rays for that error, 4 to 65,536, of those whose strata make a square or nearly one. `with_areas`: as many
+/// as areas_up_to() says.
+int rays_for(const LightFacts& facts, double error, bool with_areas = false);
 
 }  // namespace penumbra::detail

@@ -25,7 +25,7 @@ struct Effects {
   EffectChoice certificates = EffectChoice::kPlanned;
   /// Areas between edges are integrated. On: at all receivers. Off: at none.
   EffectChoice areas = EffectChoice::kPlanned;
-  /// Fine faces are merged for areas. Off: areas are of all faces, and a method has areas or rays, not both.
+  /// Fine faces are merged for areas, which takes a hierarchy of its own. On: in all areas. Off: in none.
   EffectChoice merging = EffectChoice::kPlanned;
 };
 

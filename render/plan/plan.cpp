@@ -34,14 +34,6 @@ Decision about_caster(const CasterFacts& caster, bool left_out) {
           .numbers = {{"faces", static_cast<double>(caster.faces)}}};
 }
 
-/// Whether a method is made for the casters that reach alone: it then has hierarchies of its own, so other lights and frames do not
-/// share theirs.
-bool is_worth_leaving_out(const LightFacts& facts) {
-  std::size_t faces = 0;
-  for (const CasterFacts& caster : facts.casters) faces += caster.faces;
-  return 2.0 * totals_of_reaching(facts).faces <= static_cast<double>(faces);
-}
-
 struct Choice {
   const Candidate* candidate;
   const char* reason;
@@ -85,7 +77,7 @@ Decision why_chosen(const Choice& choice, const std::vector<Candidate>& all, con
                .reason = choice.reason,
                .text = choice.text,
                .numbers = {{"ms", choice.candidate->milliseconds}, {"error", choice.candidate->error}}};
-  // What it was compared with: each method once, with the most rays or rows.
+  // What it was compared with: each method once, with the most rays.
   for (const Candidate& each : all) {
     if (std::ranges::find(out.numbers, each.method + "_ms", &DecisionNumber::name) != out.numbers.end())
       continue;

@@ -16,14 +16,15 @@ namespace penumbra::detail {
 namespace {
 
 // Accuracy of the estimates against time: all in all about half a millisecond.
-constexpr std::size_t kReceivers = 512;  ///< looked at by rays
-constexpr int kRays = 16;                ///< for each of them, twice
-constexpr std::size_t kSeeing = 24;      ///< of each part, so many look at edges and faces
-constexpr std::size_t kEdges = 1024, kFaces = 1024;
-// A penumbra that fewer of the receivers than this lie in is taken for a usual one: O evenly spread over 0 to 1, and the
-// boundaries of a few edges.
-constexpr std::size_t kFew = 8;
-constexpr double kUsualVariance = 1.0 / 6.0, kUsualBoundary = 0.3;
+constexpr std::size_t kFewest = 256, kMost = 1536;       ///< receivers looked at by rays; of a picture
+constexpr std::size_t kOneOf = 32;                       ///< one of so many
+constexpr int kRays = 16;                                ///< for each of them
+constexpr std::size_t kPartly = 192;                     ///< of those that are partly lit so many have
+constexpr int kMoreRays = 30;                            ///< so many more, twice
+constexpr std::size_t kSeeing = 16, kSeeingPartly = 48;  ///< of each part so many look at edges and faces
+constexpr std::size_t kEdges = 1024, kMostEdges = 4096, kOneEdgeOf = 32, kFaces = 1024;
+// What is thought of a penumbra before anything is seen of it: that of a few edges. It weighs as much as so many receivers.
+constexpr double kUsualVariance = 0.13, kUsualBoundary = 0.3, kUsualWeight = 3.0;
 
 /// Indices below `count`, the first `wanted` of a sequence that fills the range evenly: multiples of the golden ratio.
 template <class Visit>
@@ -40,9 +41,10 @@ std::vector<std::uint32_t> some_receivers(const Receivers& receivers,
   constexpr std::size_t kTries = 4;  // pictures are mostly full
   std::vector<std::uint32_t> out;
   if (receivers.size() == 0) return out;
-  spread_over(receivers.size(), kTries * kReceivers, [&](std::size_t i) {
+  const std::size_t wanted = std::clamp(receivers.size() / kOneOf, kFewest, kMost);
+  spread_over(receivers.size(), kTries * wanted, [&](std::size_t i) {
     const auto index = static_cast<std::uint32_t>(i);
-    if (out.size() < kReceivers && receivers.is_present(index) && !is_dark(index)) out.push_back(index);
+    if (out.size() < wanted && receivers.is_present(index) && !is_dark(index)) out.push_back(index);
   });
   return out;
 }
@@ -58,39 +60,59 @@ double boxes_before(const FaceSample& faces, const RayScene& rays, const Circula
   return faces.boxes_on(ray.from.point, ray.way, ray.endless);
 }
 
-/// What 2 · 16 rays tell of some receivers.
+/// What rays tell of some receivers.
 struct Seen {
   std::vector<std::uint32_t> lit, partly, hidden;
+  /// Receivers that are partly lit though the first rays found them lit or hidden, about.
+  double missed_lit = 0.0, missed_hidden = 0.0;
   double variance = kUsualVariance, boundary = kUsualBoundary;
 };
 
-/// Two independent estimates of each receiver's O: their product has no bias, and their difference is their error.
-Seen see(const RayScene& rays, const LightShape& light, const Receivers& receivers,
-         std::span<const std::uint32_t> some) {
+double squared_error(double samples, double variance, double boundary) {
+  return 1.0 / (samples / variance + samples * std::sqrt(samples) / boundary);
+}
+
+/// Two independent estimates of O for receivers that the first rays found partly lit: their product has no bias, and their
+/// difference is their error. A receiver stands for all that the first rays find with its probability.
+void look_again(const RayScene& rays, const LightShape& light, const Receivers& receivers, Seen& seen) {
+  const std::span<const std::uint32_t> some(seen.partly.data(), std::min(seen.partly.size(), kPartly));
+  if (some.empty()) return;
   const auto estimate = [&](std::uint64_t seed) {
-    return trace_reference(rays, light, receivers, some, {.samples = kRays, .seed = seed}, true).unoccluded;
+    return trace_reference(rays, light, receivers, some, {.samples = kMoreRays, .seed = seed}, true)
+        .unoccluded;
   };
-  const std::vector<float> first = estimate(1), second = estimate(2);
-  Seen out;
-  double variance = 0.0, error2 = 0.0;
+  const std::vector<float> first = estimate(2), second = estimate(3);
+  const double each = static_cast<double>(seen.partly.size()) / static_cast<double>(some.size());
+  double weights = kUsualWeight, variance = kUsualWeight * kUsualVariance;
+  double error2 = kUsualWeight * squared_error(kMoreRays, kUsualVariance, kUsualBoundary);
   for (std::size_t i = 0; i < some.size(); ++i) {
     const double a = first[i], b = second[i];
-    (a + b <= 0.0 ? out.hidden : a + b < 2.0 ? out.partly : out.lit).push_back(some[i]);
-    variance += 0.5 * (a * (1.0 - b) + b * (1.0 - a));
-    error2 += 0.5 * (a - b) * (a - b);
+    const double o = std::clamp(0.5 * (a + b), 0.25 / kMoreRays, 1.0 - 0.25 / kMoreRays);
+    const double found = 1.0 - std::pow(o, kRays) - std::pow(1.0 - o, kRays);
+    (o > 0.5 ? seen.missed_lit : seen.missed_hidden) += each * (1.0 / found - 1.0);
+    weights += 1.0 / found;
+    variance += 0.5 * (a * (1.0 - b) + b * (1.0 - a)) / found;
+    error2 += 0.5 * (a - b) * (a - b) / found;
   }
-  if (out.partly.size() < kFew) return out;
-  const auto count = static_cast<double>(out.partly.size());
-  out.variance = variance / count;
+  seen.variance = std::max(1e-6, variance / weights);
   // 1 / e² = n / v + n^(3/2) / b, for the e of n rays that was seen.
-  constexpr double kLeast = 1e-3;  // of a difference that no ray has seen, so that no error is taken for none
-  const double rest = 1.0 / std::max(error2 / count, 1e-6) - kRays / std::max(out.variance, 1e-6);
-  out.boundary = std::max(kLeast, kRays * std::sqrt(double{kRays}) / std::max(rest, 1e-3));
+  const double rest = weights / error2 - kMoreRays / seen.variance;
+  seen.boundary = kMoreRays * std::sqrt(double{kMoreRays}) / std::max(rest, 1e-3);
+}
+
+Seen see(const RayScene& rays, const LightShape& light, const Receivers& receivers,
+         std::span<const std::uint32_t> some) {
+  const std::vector<float> open =
+      trace_reference(rays, light, receivers, some, {.samples = kRays, .seed = 1}, true).unoccluded;
+  Seen out;
+  for (std::size_t i = 0; i < some.size(); ++i)
+    (open[i] <= 0.0f ? out.hidden : open[i] < 1.0f ? out.partly : out.lit).push_back(some[i]);
+  look_again(rays, light, receivers, out);
   return out;
 }
 
-/// Summed in their order, so that threads change nothing.
-SampledPart mean_of(std::span<const SampledPart> each, double share) {
+/// Summed in their order, so that threads change nothing. `least`: edges that may be there though none was seen.
+SampledPart mean_of(std::span<const SampledPart> each, double share, double least) {
   SampledPart out{.share = share};
   const auto count = static_cast<double>(each.size());
   for (const SampledPart& one : each) {
@@ -98,7 +120,9 @@ SampledPart mean_of(std::span<const SampledPart> each, double share) {
     out.merged_edges += one.merged_edges / count;
     out.edge_length += one.edge_length / count;
     out.boxes += one.boxes / count;
+    out.edges_each.push_back(std::max(one.edges, least));
   }
+  std::ranges::sort(out.edges_each);
   return out;
 }
 
@@ -115,10 +139,13 @@ SampledFacts sample_light(const Scene& objects, const RayScene& rays, const Circ
   out.variance = seen.variance;
   out.boundary = seen.boundary;
   // By edges and faces: how much lies before them.
-  const EdgeSample edges(objects, circle, casters, kEdges);
+  std::size_t all_edges = 0;
+  for (const CasterFacts& caster : casters) all_edges += caster.edges;
+  const EdgeSample edges(objects, circle, casters, std::clamp(all_edges / kOneEdgeOf, kEdges, kMostEdges));
+  out.band_edges = edges.band();
   const FaceSample faces(objects, casters, kFaces);
-  const auto look = [&](const std::vector<std::uint32_t>& part) {
-    const std::size_t count = std::min(part.size(), kSeeing);
+  const auto look = [&](const std::vector<std::uint32_t>& part, std::size_t most, double missed) {
+    const std::size_t count = std::min(part.size(), most);
     std::vector<SampledPart> each(count);
     rays.arena().execute([&] {
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -129,11 +156,13 @@ SampledFacts sample_light(const Scene& objects, const RayScene& rays, const Circ
                    .boxes = boxes_before(faces, rays, circle, receivers, part[i])};
       });
     });
-    return mean_of(each, static_cast<double>(part.size()) / static_cast<double>(some.size()));
+    const double share = std::max(0.0, static_cast<double>(part.size()) + missed);
+    return mean_of(each, share / static_cast<double>(some.size()),
+                   edges.each_stands_for() > 1.0 ? 0.5 * edges.each_stands_for() : 0.0);
   };
-  out.lit = look(seen.lit);
-  out.penumbra = look(seen.partly);
-  out.hidden = look(seen.hidden);
+  out.lit = look(seen.lit, kSeeing, -seen.missed_lit);
+  out.penumbra = look(seen.partly, kSeeingPartly, seen.missed_lit + seen.missed_hidden);
+  out.hidden = look(seen.hidden, kSeeing, -seen.missed_hidden);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #include "render/plan/seen_edges.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <limits>
@@ -58,6 +59,7 @@ EdgeSample::EdgeSample(const Scene& objects, const CircularLight& light, std::sp
         };
         set_plane(0, edge.left_apex, to - from);
         if (!edge.is_boundary()) set_plane(1, edge.right_apex, from - to);
+        band_ += is_in_band(seen) ? 1 : 0;
         edges_.push_back(seen);
       });
 }
@@ -65,6 +67,18 @@ EdgeSample::EdgeSample(const Scene& objects, const CircularLight& light, std::sp
 Vec3 EdgeSample::in_frame(const Vec3& world) const {
   const Vec3 p = light_.is_distant() ? world : world - light_.center;
   return {glm::dot(p, axes_.u), glm::dot(p, axes_.v), glm::dot(p, axes_.w)};
+}
+
+bool EdgeSample::is_in_band(const Seen& edge) const {
+  if (edge.is_boundary) return true;
+  // The plane's height over the light's center, and by how much it changes over the light.
+  const auto side = [&](std::size_t k) {
+    const Vec3& n = edge.normals[k];
+    const double over = light_.is_distant() ? n.z : edge.offsets[k],
+                 change = light_.radius * std::hypot(n.x, n.y);
+    return over > change ? 1 : over < -change ? -1 : 0;
+  };
+  return side(0) == 0 || side(0) != side(1);
 }
 
 EdgeSample::Crossing EdgeSample::crossing(const Vec3& world) const {

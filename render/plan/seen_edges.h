@@ -30,6 +30,10 @@ class EdgeSample {
   };
   /// An estimate. Cost O(count).
   Crossing crossing(const Vec3& x) const;
+  /// How many edges each of the sample stands for: fewer than that are not told from none.
+  double each_stands_for() const { return each_stands_for_; }
+  /// How many edges are in the band: all but those whose faces both face all of the light, or both none of it. An estimate.
+  double band() const { return each_stands_for_ * static_cast<double>(band_); }
 
  private:
   /// An edge in the light's frame: u, v, depth.
@@ -43,10 +47,12 @@ class EdgeSample {
   Vec3 in_frame(const Vec3& world) const;
   /// How long the edge is across the light, in radii, as x sees it; 0 where it is not.
   double length_across(const Seen& edge, const Vec3& x) const;
+  bool is_in_band(const Seen& edge) const;
 
   CircularLight light_;
   LightFrame axes_;
   std::vector<Seen> edges_;
+  std::size_t band_ = 0;
   double each_stands_for_ = 1.0;
 };
 

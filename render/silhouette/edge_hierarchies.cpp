@@ -29,6 +29,7 @@ const CasterBoxes& EdgeHierarchies::boxes(tbb::task_arena& threads) {
 }
 
 const BoxedGroups& EdgeHierarchies::groups(const Receivers& receivers, tbb::task_arena& threads) {
+  if (taken_) return *taken_;
   if (groups_ && receivers.revision != 0 && receivers.revision == revision_) return *groups_;
   threads.execute([&] { groups_ = std::make_unique<BoxedGroups>(receivers); });
   revision_ = receivers.revision;

@@ -24,7 +24,9 @@ class EdgeHierarchies {
   const SceneEdges& edges(tbb::task_arena& threads);
   const MergedEdges& merged(tbb::task_arena& threads);
   const CasterBoxes& boxes(tbb::task_arena& threads);
-  /// The receivers in groups: those of the call before where their revision is the same and not 0.
+  /// Groups that a caller has made, for the next call of groups(), or nullptr. They stay the caller's.
+  void take_groups(const BoxedGroups* made) { taken_ = made; }
+  /// The receivers in groups: those that were taken, else those of the call before where their revision is the same and not 0.
   const BoxedGroups& groups(const Receivers& receivers, tbb::task_arena& threads);
   /// How often groups have been made.
   std::size_t groupings() const { return groupings_; }
@@ -44,6 +46,7 @@ class EdgeHierarchies {
   std::unique_ptr<MergedEdges> merged_;
   std::unique_ptr<CasterBoxes> boxes_;
   std::unique_ptr<BoxedGroups> groups_;
+  const BoxedGroups* taken_ = nullptr;
   std::uint64_t revision_ = 0;
   std::size_t groupings_ = 0;
 };

@@ -74,6 +74,7 @@ class BySilhouettes : public Method {
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
     MethodResult out;
+    hierarchies_.take_groups(input.groups);
     see(input, hierarchies_, out);
     out.setup = {{"edge_hierarchy", hierarchies_.milliseconds()}};
     return out;
@@ -163,9 +164,11 @@ std::vector<OptionSchema> silhouette_options() {
 SilhouetteOptions rays_certificates(const OptionValues& options) {
   const auto up_to = static_cast<std::size_t>(integer_of(options, "areas-up-to"));
   const auto samples = static_cast<std::size_t>(integer_of(options, "samples"));
+  // Few edges are left where areas are integrated: they are not worth a hierarchy of merged faces.
   return {.integrate = up_to > 0,
           .most_segments = up_to,
-          .most_listed = std::max(kFewEdges, kEdgesOfRay * samples)};
+          .most_listed = std::max(kFewEdges, kEdgesOfRay * samples),
+          .tolerance = 0.0};
 }
 
 MethodInfo silhouette_method() {

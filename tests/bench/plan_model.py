@@ -56,31 +56,42 @@ def reached(facts):
     return facts["receivers"] - facts["dark_receivers"]
 
 
-def silhouette_features(facts, few=1.0, many=1.0):
-    """`many`: by how much another number of rows changes the time of areas of many edges."""
-    area = lambda part, term: (many if part["edges"] > FEW_EDGES else few) * term
-    return [reached(facts), facts["edges"], reached(facts) * mean(facts, lambda p: area(p, p["merged_edges"])),
-            reached(facts) * mean(facts, lambda p: area(p, math.sqrt(p["edges"]))),
-            reached(facts) * mean(facts, lambda p: area(p, p["edge_length"])), reached(facts) * mean(facts, lambda p: p["boxes"])]
+def silhouette_features(facts):
+    return [reached(facts), facts["edges"], facts["band_edges"], reached(facts) * mean(facts, lambda p: p["merged_edges"]),
+            reached(facts) * mean(facts, lambda p: math.sqrt(p["edges"])),
+            reached(facts) * mean(facts, lambda p: p["edge_length"]), reached(facts) * mean(facts, lambda p: p["boxes"])]
 
 
-def ray_features(facts, part):
-    return [1, math.log2(1 + facts["faces"]), math.sqrt(part["boxes"]), math.sqrt(part["edges"]), math.sqrt(part["boxes"] * part["edges"])]
+def merging_features(facts):
+    return [facts["edges_of_method"], facts["edges_of_method"] ** 1.5]
+
+
+def ray_features(facts, part, samples):
+    """Of a receiver with so many rays."""
+    return [1] + [samples * feature for feature in (1, math.log2(1 + facts["faces"]), math.sqrt(part["boxes"]), math.sqrt(part["edges"]), math.sqrt(part["boxes"] * part["edges"]))]
 
 
 def reference_features(facts, samples):
     parts = [facts[part] for part in PARTS]
-    sums = [sum(part["share"] * f for part, f in zip(parts, fs)) for fs in zip(*(ray_features(facts, p) for p in parts))]
-    return [samples * reached(facts) * f for f in sums]
+    sums = [sum(part["share"] * f for part, f in zip(parts, fs)) for fs in zip(*(ray_features(facts, p, samples) for p in parts))]
+    return [reached(facts) * f for f in sums]
 
 
-def rays_error(facts, samples):
+def rays_error(facts, samples, up_to=0):
+    """What nine of ten scenes keep is a factor more."""
     chance, boundary = facts["variance"] / samples, facts["boundary"] / samples ** 1.5
-    return math.sqrt(chance * boundary / (chance + boundary))
+    return math.sqrt((1 - few_of(facts["penumbra"], up_to)[0]) * chance * boundary / (chance + boundary))
 
 
-def rays_for(facts, error):
-    return next(n * n for n in range(2, 257) if n == 256 or rays_error(facts, n * n) <= error)
+def few_of(part, up_to):
+    """Of a part's receivers, those that see few edges: their share, and that of the part's edges that these see."""
+    each = part["edges_each"]
+    if up_to <= 0:
+        return 0, 0
+    if not each:
+        return (1, 1) if part["edges"] <= up_to else (0, 0)
+    few = [edges for edges in each if edges <= up_to]
+    return len(few) / len(each), sum(few) / sum(each) if sum(each) > 0 else 1
 
 
 class Model:
@@ -88,50 +99,60 @@ class Model:
 
     def __init__(self, rows):
         facts = [row["facts"] for row in rows.values()]
-        ns = lambda name: [max(.2, row["measured"][name]["frame_ms"]) * 1e6 for row in rows.values()]
-        self.silhouette = fit_constants([silhouette_features(f) for f in facts], ns("silhouette"))
-        self.rows = {64: 1.0} | {count: self.time_of_rows(facts, ns(f"silhouette-{count}")) for count in (32, 16)}
-        self.ray = fit_constants([reference_features(f, n) for n in (16, 144) for f in facts], ns("reference-16") + ns("reference-144"))
-        self.rays = fit_constants(
-            [self.rays_features(f, n, up_to) for n in (16, 144) for up_to in (0, n // 4) for f in facts],
-            [t for n in (16, 144) for name in ("rays", "areas") for t in ns(f"{name}-{n}")])
-        setups = [(f["edges"], row["measured"]["silhouette"]["setup_ms"] * 1e6) for f, row in zip(facts, rows.values())]
-        setups = [(edges, time) for edges, time in setups if time > 5e6]
-        self.hierarchy = fit_constants([[edges] for edges, _ in setups], [time for _, time in setups])[0]
-        self.errors = self.errors_of_silhouette(rows)
-
-    def time_of_rows(self, facts, times):
-        loss = lambda many: sum(math.log(total(self.silhouette, silhouette_features(f, 1, many)) / t) ** 2 for f, t in zip(facts, times))
-        return min((k / 100 for k in range(20, 121)), key=loss)
+        # (facts, rays, nanoseconds) of all rows of a method
+        of = lambda method: [(row["facts"], int(name.partition("-")[2] or 0), max(.2, measured["frame_ms"]) * 1e6)
+                             for row in rows.values() for name, measured in row["measured"].items() if name.partition("-")[0] == method]
+        times = lambda some: [time for _, _, time in some]
+        by_areas, by_reference, by_rays, by_both = (of(name) for name in ("silhouette", "reference", "rays", "areas"))
+        self.silhouette = fit_constants([silhouette_features(f) for f, _, _ in by_areas], times(by_areas))
+        self.ray = fit_constants([reference_features(f, n) for f, n, _ in by_reference], times(by_reference))
+        self.rays = fit_constants([self.rays_features(f, n, 0) for f, n, _ in by_rays] +
+                                  [self.rays_features(f, n, n // 4) for f, n, _ in by_both], times(by_rays) + times(by_both))
+        least = lambda row, method: min(m["setup_ms"] for name, m in row["measured"].items() if name.partition("-")[0] == method) * 1e6
+        many = [row for row in rows.values() if row["facts"]["edges_of_method"] > 8000 and least(row, "rays") > 1e6]
+        self.hierarchy = fit_constants([[row["facts"]["edges_of_method"]] for row in many], [least(row, "rays") for row in many])[0]
+        merged = [row for row in many if least(row, "silhouette") > 1.1 * least(row, "rays")]
+        self.merging = fit_constants([merging_features(row["facts"]) for row in merged],
+                                     [least(row, "silhouette") - least(row, "rays") for row in merged])
+        self.errors = self.errors_of_silhouette(rows) | {"rays": self.factor_of_rays(rows)}
 
     @staticmethod
     def errors_of_silhouette(rows):
         """What nineteen of twenty scenes keep."""
         def most(values):
             return sorted(values)[min(len(values) - 1, math.ceil(.95 * len(values)) - 1)] if values else 1.0
-        sort = lambda many, name: [row["measured"][name]["rmse"] for row in rows.values()
-                                   if "rmse" in row["measured"][name] and (row["facts"]["penumbra"]["edges"] > FEW_EDGES) == many]
-        return {"few": most(sort(False, "silhouette"))} | {
-            count: most(sort(True, "silhouette" if count == 64 else f"silhouette-{count}")) for count in (64, 32, 16)}
+        sort = lambda many: [row["measured"]["silhouette"]["rmse"] for row in rows.values()
+                             if "rmse" in row["measured"]["silhouette"] and (row["facts"]["penumbra"]["edges"] > FEW_EDGES) == many]
+        return {"few": most(sort(False)), "many": most(sort(True))}
+
+    @staticmethod
+    def factor_of_rays(rows):
+        """By how much rays are further off than they themselves let expect, at most, in nine of ten scenes."""
+        ratios = sorted(measured["rmse"] / rays_error(row["facts"], int(name[10:])) for row in rows.values()
+                        for name, measured in row["measured"].items() if name.startswith("reference-") and "rmse" in measured)
+        return max(1, ratios[math.ceil(.9 * len(ratios)) - 1])
 
     def area_ns(self, part):
-        return self.silhouette[2] * part["merged_edges"] + self.silhouette[3] * math.sqrt(part["edges"]) + self.silhouette[4] * part["edge_length"]
+        return self.silhouette[3] * part["merged_edges"] + self.silhouette[4] * math.sqrt(part["edges"]) + self.silhouette[5] * part["edge_length"]
 
     def open_ns(self, facts, samples, up_to, name):
         part = facts[name]
         share = 1 if name == "penumbra" else min(1, part["edges"])
-        traced = samples * total(self.ray, ray_features(facts, part))
-        few = min(1, up_to / part["edges"]) if part["edges"] > 0 else float(up_to > 0)
-        return reached(facts) * part["share"] * share * (few * min(few * self.area_ns(part), traced) + (1 - few) * traced)
+        few, of_edges = few_of(part, up_to)
+        return reached(facts) * part["share"] * share * (
+            of_edges * self.area_ns(part) + (1 - few) * total(self.ray, ray_features(facts, part, samples)))
 
     def rays_features(self, facts, samples, up_to):
-        return [reached(facts), facts["edges"], reached(facts) * mean(facts, lambda p: math.sqrt(p["edges"])),
+        return [reached(facts), facts["edges"], facts["band_edges"], reached(facts) * mean(facts, lambda p: math.sqrt(p["edges"])),
                 reached(facts) * mean(facts, lambda p: min(p["edges"], EDGES_OF_RAY * samples)),
                 reached(facts) * mean(facts, lambda p: p["boxes"]), self.open_ns(facts, samples, up_to, "penumbra"),
                 self.open_ns(facts, samples, up_to, "hidden") + self.open_ns(facts, samples, up_to, "lit")]
 
-    def of_silhouette(self, facts, rows=64):
-        return total(self.silhouette, silhouette_features(facts, 1, self.rows[rows]))
+    def setup(self, facts, merged):
+        return self.hierarchy * facts["edges_of_method"] + (total(self.merging, merging_features(facts)) if merged else 0)
+
+    def of_silhouette(self, facts):
+        return total(self.silhouette, silhouette_features(facts))
 
     def of_reference(self, facts, samples):
         return total(self.ray, reference_features(facts, samples))
@@ -139,8 +160,8 @@ class Model:
     def of_rays(self, facts, samples, up_to):
         return total(self.rays, self.rays_features(facts, samples, up_to))
 
-    def error_of_silhouette(self, facts, rows=64):
-        return self.errors[rows if facts["penumbra"]["edges"] > FEW_EDGES else "few"]
+    def error_of_silhouette(self, facts):
+        return self.errors["many" if facts["penumbra"]["edges"] > FEW_EDGES else "few"]
 
 
 def replace_block(document, begin, text):
@@ -153,10 +174,33 @@ def replace_block(document, begin, text):
     document.write_text(f"{before}{begin}{line}\n{text.strip()}\n{after}")
 
 
+# What the example's table compares: (words for it, arguments of `penumbra render`).
+WITHOUT = [("all of it by `silhouette`", ["--method", "silhouette"]),
+           ("the plan", ["--method", "auto"]),
+           ("the plan, but shadows are looked for where it is proved that there are none", ["--method", "auto", "--effect", "shadows=on"]),
+           ("the plan, but no caster is left out", ["--method", "auto", "--effect", "culling=off"]),
+           ("the plan, but rays at all receivers", ["--method", "auto", "--effect", "certificates=off"])]
+
+
 def write_example(penumbra, document):
+    """What the plan of the document's scene says, and what it saves: the least of some runs on one thread, as data, too."""
     scene = document.read_text().partition("<!-- plan: ")[2].partition(" -->")[0]
     text = subprocess.run([penumbra, "plan", scene], check=True, capture_output=True, text=True, cwd=TOP).stdout
     replace_block(document, "<!-- plan: ", f"```text\n{text}```")
+    rows = []
+    for what, arguments in WITHOUT:
+        command = [penumbra, "render", scene, "--threads", "1", "--warm-up", "2", *arguments, "--stats", "-"]
+        runs = [json.loads(subprocess.run(command, check=True, capture_output=True, text=True, cwd=TOP).stdout) for _ in range(5)]
+        rows.append({"what": what, "arguments": arguments} | {
+            "frame_ms": round(min(run["frame_ms"] for run in runs), 1),
+            "setup_ms": round(min(sum(run["setup_ms"].values()) for run in runs), 1)})
+    (TOP / "data/plan/example.json").write_text(json.dumps(rows, indent=2) + "\n")
+    planned = next(row for row in rows if row["what"] == "the plan")
+    lines = ["| | frame, ms | set-up, ms | more than the plan, ms |", "|---|---|---|---|"]
+    for row in rows:
+        more = sum(row[key] - planned[key] for key in ("frame_ms", "setup_ms"))
+        lines.append(f"| {row['what']} | {row['frame_ms']} | {row['setup_ms']} | {'' if row is planned else f'{more:.1f}'} |")
+    replace_block(document, "<!-- saved -->", "\n".join(lines))
 
 
 def fit(path, calibration, header, document):
@@ -167,16 +211,16 @@ def fit(path, calibration, header, document):
 
 
 def write_header(path, model, calibration):
-    names = [("Silhouette", ["Receiver", "BandEdge", "Merged", "RootOfEdges", "Length", "Box"], model.silhouette),
-             ("Ray", ["", "LogFaces", "RootOfBoxes", "RootOfEdges", "RootOfBoth"], model.ray),
-             ("Rays", ["Receiver", "BandEdge", "RootOfEdges", "Edge", "Box", "OpenPenumbra", "OpenRest"], model.rays),
-             ("Hierarchy", ["Edge"], [model.hierarchy])]
+    names = [("Silhouette", ["Receiver", "CasterEdge", "BandEdge", "Merged", "RootOfEdges", "Length", "Box"], model.silhouette),
+             ("Ray", ["Receiver", "", "LogFaces", "RootOfBoxes", "RootOfEdges", "RootOfBoth"], model.ray),
+             ("Rays", ["Receiver", "CasterEdge", "BandEdge", "RootOfEdges", "Edge", "Box", "OpenPenumbra", "OpenRest"], model.rays),
+             ("Hierarchy", ["Edge"], [model.hierarchy]), ("Merging", ["Edge", "EdgeTimesRoot"], model.merging)]
     line = lambda name, value: f"inline constexpr double k{name} = {value:.4g};"
-    lines = ["// Nanoseconds on two cores; kRaysOpen..., kTimeOf...: factors."]
+    lines = ["// Nanoseconds on two cores; kRaysOpen...: factors."]
     lines += [line(group + name, value) for group, members, values in names for name, value in zip(members, values)]
-    lines += [line(f"TimeOf{count}Rows", model.rows[count]) for count in (16, 32)]
-    lines += ["// RMSE of V over the penumbra."]
-    lines += [line("ErrorOfFew", model.errors["few"])] + [line(f"ErrorOfMany{count}", model.errors[count]) for count in (16, 32, 64)]
+    lines += ["// RMSE of V over the penumbra; kErrorOfRays: a factor."]
+    lines += [line("ErrorOfFew", model.errors["few"]), line("ErrorOfMany", model.errors["many"]),
+              line("ErrorOfRays", model.errors["rays"])]
     lines += ["// Milliseconds of `penumbra plan --calibrate` on that machine."]
     lines += [line("CalibrationSilhouette", calibration["silhouette_ms"]), line("CalibrationReference", calibration["reference_ms"])]
     path.write_text("// Constants of the planner's model. Made by `./run plan-model` from data/plan/rows.jsonl: do not edit.\n"
@@ -193,29 +237,34 @@ def off_table(off):
 
 
 def residuals_of(rows, model):
-    predictions = {"silhouette": lambda f: model.of_silhouette(f), "reference-16": lambda f: model.of_reference(f, 16),
-                   "rays-16": lambda f: model.of_rays(f, 16, 0), "rays-144": lambda f: model.of_rays(f, 144, 0),
-                   "areas-144": lambda f: model.of_rays(f, 144, 36)}
+    shown = ("silhouette", "reference-16", "rays-16", "rays-144", "areas-144")
     lines = ["Milliseconds of processor time at 320×240, halved for two cores, and RMSE over the penumbra by rays in double; each beside what",
-             "the model says. `areas`: `rays --areas-up-to 36`.", "",
-             "| scene | edges | " + " | | ".join(f"`{name}`" for name in predictions) + " | | RMSE, `silhouette` | | RMSE, 16 rays | | RMSE, 144 rays | |",
-             "|" + "---|" * (2 + 2 * len(predictions) + 6)]
-    off = {"time of " + name: [] for name in predictions} | {"RMSE of 16 rays": [], "RMSE of 144 rays": []}
+             "the model says. `areas`: `rays --areas-up-to 36`. The rows by chance are in the second table alone.", "",
+             "| scene | edges | " + " | | ".join(f"`{name}`" for name in shown) + " | | RMSE, `silhouette` | | RMSE, 16 rays | | RMSE, 144 rays | |",
+             "|" + "---|" * (2 + 2 * len(shown) + 6)]
+    off = {}
     above = 0
     for name, row in rows.items():
-        line = f"| {name} | {row['facts']['penumbra']['edges']:.1f} "
-        for setting, predict in predictions.items():
-            measured, value = row["measured"][setting]["frame_ms"], predict(row["facts"]) * 1e-6
-            line += f"| {measured:.1f} | {value:.1f} "
-            off["time of " + setting].append(abs(math.log(value / max(.2, measured))))
-        measured, value = row["measured"]["silhouette"]["rmse"], model.error_of_silhouette(row["facts"])
-        above += measured > value
-        line += f"| {measured:.5f} | {value:.5f} "
-        for samples in (16, 144):
-            measured, value = row["measured"][f"reference-{samples}"]["rmse"], rays_error(row["facts"], samples)
-            line += f"| {measured:.4f} | {value:.4f} "
-            off[f"RMSE of {samples} rays"].append(abs(math.log(value / measured)))
-        lines.append(line + "|")
+        facts, cells = row["facts"], {}
+        for setting, measured in row["measured"].items():
+            method, _, number = setting.partition("-")
+            samples = int(number or 0)
+            predicted = {"silhouette": lambda: model.of_silhouette(facts), "reference": lambda: model.of_reference(facts, samples),
+                         "rays": lambda: model.of_rays(facts, samples, 0), "areas": lambda: model.of_rays(facts, samples, samples // 4)}[method]() * 1e-6
+            off.setdefault(f"time of `{method}`", []).append(abs(math.log(predicted / max(.2, measured["frame_ms"]))))
+            cells[setting] = f"{measured['frame_ms']:.1f} | {predicted:.1f}"
+            if "rmse" not in measured:
+                continue
+            if method == "reference":
+                error = model.errors["rays"] * rays_error(facts, samples)
+                off.setdefault("RMSE of rays", []).append(abs(math.log(error / measured["rmse"])))
+                cells[f"RMSE {samples}"] = f"{measured['rmse']:.4f} | {error:.4f}"
+            if method == "silhouette":
+                above += measured["rmse"] > model.error_of_silhouette(facts)
+                cells["RMSE 0"] = f"{measured['rmse']:.5f} | {model.error_of_silhouette(facts):.5f}"
+        if not name.startswith("random-"):
+            columns = [cells[setting] for setting in (*shown, "RMSE 0", "RMSE 16", "RMSE 144")]
+            lines.append(f"| {name} | {facts['penumbra']['edges']:.1f} | " + " | ".join(columns) + " |")
     lines += ["", f"The RMSE of `silhouette` is above the model's in {above} of {len(rows)} scenes. The model is off by a factor of", ""]
     lines += off_table(off)
     return "\n".join(lines)
@@ -229,7 +278,8 @@ def time_for(row, method, error):
     if points[0][1]["rmse"] <= error:
         return points[0][1]["frame_ms"] + max(0, points[0][1]["setup_ms"])
     low, high = next(((a, b) for a, b in zip(points, points[1:]) if b[1]["rmse"] <= error), (points[1], points[2]))
-    slope = math.log(low[1]["rmse"] / high[1]["rmse"]) / math.log(high[0] / low[0])
+    least = 1e-6  # as rows are rounded: areas alone have no error that is seen
+    slope = math.log(max(least, low[1]["rmse"]) / max(least, high[1]["rmse"])) / math.log(high[0] / low[0])
     if slope <= 0:
         return None
     n = low[0] * (low[1]["rmse"] / error) ** (1 / slope)
@@ -241,7 +291,7 @@ def time_for(row, method, error):
 def best_time(row, error):
     """Of all methods that keep it, (milliseconds, name)."""
     whole = lambda name: row["measured"][name]["frame_ms"] + max(0, row["measured"][name]["setup_ms"])
-    all_of = [(whole(name), name) for name in ("silhouette", "silhouette-32", "silhouette-16") if row["measured"][name]["rmse"] <= error]
+    all_of = [(whole("silhouette"), "silhouette")] if row["measured"]["silhouette"]["rmse"] <= error else []
     all_of += [(time, method) for method in ("rays", "areas", "reference") if (time := time_for(row, method, error)) is not None]
     return min(all_of, default=(None, None))
 

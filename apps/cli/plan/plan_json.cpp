@@ -8,6 +8,7 @@
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/method.h"
 #include "render/plan/auto_method.h"
+#include "render/plan/cost_model.h"
 
 namespace penumbra::apps {
 namespace {
@@ -20,7 +21,8 @@ nlohmann::json to_json(const SampledPart& part) {
           {"edges", part.edges},
           {"merged_edges", part.merged_edges},
           {"edge_length", part.edge_length},
-          {"boxes", part.boxes}};
+          {"boxes", part.boxes},
+          {"edges_each", part.edges_each}};
 }
 
 nlohmann::json to_json(const Light& light, const LightPlan& plan) {
@@ -92,7 +94,9 @@ nlohmann::json to_json(const LightFacts& facts) {
           {"casters", facts.casters.size()},
           {"faces", faces},
           {"edges", edges},
+          {"edges_of_method", detail::edges_of_method(facts)},
           {"sampled_receivers", facts.sampled.receivers},
+          {"band_edges", facts.sampled.band_edges},
           {"variance", facts.sampled.variance},
           {"boundary", facts.sampled.boundary},
           {"lit", to_json(facts.sampled.lit)},

@@ -9,14 +9,17 @@
 #include "penumbra/mesh/error.h"
 #include "tests/bench/plan/cases.h"
 #include "tests/bench/plan/measure.h"
+#include "tests/bench/plan/scaling.h"
 
 namespace penumbra::bench {
 namespace {
 
 constexpr const char* kHelp = R"(penumbra_plan_bench WHAT FILE [CASE...]
-  fit      scenes of the fit at 320x240
+  fit      scenes of the fit, at 320x240; those by chance at 240x180
   foolish  scenes on which some method is foolish, at 320x240, and what auto does for errors of .05 to .002
+  facts    facts anew for the rows of FILE, which keep what was measured: written into FILE.facts
   random   random-FIRST random-LAST, at 240x180, and what auto does for one error each
+  scaling  (no FILE) what casters and lights cost that the picture does not call for
 Adds a line of JSON to FILE for each scene that it has not. K/N before the cases: of N shares the Kth, from 0.)";
 
 OptionValues rays(std::uint64_t samples, std::uint64_t areas_up_to = 0) {
@@ -25,8 +28,6 @@ OptionValues rays(std::uint64_t samples, std::uint64_t areas_up_to = 0) {
 
 std::vector<Setting> fit_settings() {
   std::vector<Setting> out{{"silhouette", "silhouette", {}}};
-  for (const std::uint64_t rows : {16, 32})
-    out.push_back({"silhouette-" + std::to_string(rows), "silhouette", {{"silhouette-rows", rows}}});
   for (const std::uint64_t n : {16, 144}) {
     const std::string text = std::to_string(n);
     out.push_back({"rays-" + text, "rays", rays(n)});
@@ -39,8 +40,6 @@ std::vector<Setting> fit_settings() {
 /// Those that are compared with auto.
 std::vector<Setting> ladder() {
   std::vector<Setting> out{{"silhouette", "silhouette", {}}};
-  for (const std::uint64_t rows : {16, 32})
-    out.push_back({"silhouette-" + std::to_string(rows), "silhouette", {{"silhouette-rows", rows}}});
   for (const std::uint64_t n : {16, 64, 256}) {
     const std::string text = std::to_string(n);
     out.push_back({"rays-" + text, "rays", rays(n)});
@@ -66,13 +65,20 @@ std::set<std::string> names_in(const std::string& file) {
   return names;
 }
 
+constexpr MeasureOptions kSmall{.width = 240, .height = 180, .judged = 500, .judge_samples = 1'024};
+
+bool is_random(const std::string& name) {
+  return name.starts_with("random-");
+}
+
 nlohmann::json measure(const std::string& what, const std::string& name) {
+  if (what == "fit" && is_random(name)) return MeasuredScene(plan_case(name), kSmall).row(ladder(), {});
   if (what == "fit") return MeasuredScene(plan_case(name), {}).row(fit_settings(), {});
   if (what == "foolish")
-    return MeasuredScene(plan_case(name), {}).row(ladder(), {0.05, 0.02, 0.01, 0.005, 0.002});
+    return MeasuredScene(plan_case(name), {.judged = 500, .judge_samples = 1'024})
+        .row(ladder(), {0.05, 0.02, 0.01, 0.005, 0.002});
   const auto seed = static_cast<std::uint64_t>(std::stoull(name.substr(name.find('-') + 1)));
-  return MeasuredScene(plan_case(name), {.width = 240, .height = 180, .judged = 600, .judge_samples = 2'048})
-      .row(ladder(), {budget_of(seed)});
+  return MeasuredScene(plan_case(name), kSmall).row(ladder(), {budget_of(seed)});
 }
 
 std::vector<std::string> random_cases(const std::vector<std::string>& ends) {
@@ -83,7 +89,26 @@ std::vector<std::string> random_cases(const std::vector<std::string>& ends) {
   return out;
 }
 
+void find_facts_anew(const std::string& file) {
+  std::ifstream in(file);
+  std::ofstream out(file + ".facts");
+  for (std::string line; std::getline(in, line);) {
+    nlohmann::json row = nlohmann::json::parse(line);
+    const auto name = row.at("name").get<std::string>();
+    MeasureOptions options = is_random(name) ? kSmall : MeasureOptions{};
+    options.judged = 0;
+    const nlohmann::json anew = MeasuredScene(plan_case(name), options).row({}, {});
+    for (const char* key : {"facts", "plan_ms"}) row[key] = anew.at(key);
+    out << row.dump() << "\n";
+  }
+}
+
 int run(const std::vector<std::string>& words) {
+  if (words.size() == 1 && words[0] == "scaling") {
+    std::printf("%s\n", measure_scaling().dump(2).c_str());
+    return 0;
+  }
+  if (words.size() == 2 && words[0] == "facts") return find_facts_anew(words[1]), 0;
   if (words.size() < 2 || (words[0] != "fit" && words[0] != "foolish" && words[0] != "random")) {
     std::puts(kHelp);
     return 2;

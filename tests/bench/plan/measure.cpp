@@ -38,13 +38,13 @@ MeasuredScene::MeasuredScene(Scene scene, const MeasureOptions& options)
       rays_(scene_, 1),
       surface_(apps::surface_by_oracle(scene_, options.width, options.height)) {
   surface_.revision = new_revision();
-  trace_references();
+  if (options_.judged > 0) trace_references();
 }
 
 /// At pixels that a few rays find partly lit: a choice that no method has a part in.
 void MeasuredScene::trace_references() {
-  constexpr std::size_t kLooked = 20'000;
-  constexpr int kFewRays = 64;
+  constexpr std::size_t kLooked = 6'000;
+  constexpr int kFewRays = 32;
   const apps::Judge judge(scene_, scene_.lights.front().shape);
   std::vector<std::uint32_t> seen;
   for (std::uint32_t i = 0; i < surface_.size(); ++i)
@@ -67,8 +67,8 @@ void MeasuredScene::trace_references() {
 
 /// The least time of several frames, and what the first one took beside it.
 MeasuredScene::Run MeasuredScene::run(const std::string& method, const OptionValues& options) const {
-  constexpr double kEnough = 150.0;  // milliseconds
-  constexpr int kMost = 8;
+  constexpr double kEnough = 80.0;  // milliseconds
+  constexpr int kMost = 6;
   const MethodInfo& info = method_named(method);
   const OptionValues values = completed(info.options, options);
   const std::unique_ptr<Method> made = info.make(scene_);

@@ -18,7 +18,7 @@ namespace penumbra::bench {
 
 struct MeasureOptions {
   int width = 320, height = 240;
-  /// Pixels in penumbra at which the judge looks, and its rays at each, twice.
+  /// Pixels in penumbra at which the judge looks, and its rays at each, twice. Without pixels errors are not judged.
   std::size_t judged = 1'000;
   int judge_samples = 4'096;
 };
