@@ -16,10 +16,10 @@ namespace penumbra::detail {
 namespace {
 
 // Accuracy of the estimates against time: all in all about half a millisecond.
-constexpr std::size_t kFewest = 256, kMost = 1536;       ///< receivers looked at by rays; of a picture
-constexpr std::size_t kOneOf = 32;                       ///< one of so many
+constexpr std::size_t kFewest = 256, kMost = 1024;       ///< receivers looked at by rays; of a picture
+constexpr std::size_t kOneOf = 64;                       ///< one of so many
 constexpr int kRays = 16;                                ///< for each of them
-constexpr std::size_t kPartly = 192;                     ///< of those that are partly lit so many have
+constexpr std::size_t kPartly = 128;                     ///< of those that are partly lit so many have
 constexpr int kMoreRays = 30;                            ///< so many more, twice
 constexpr std::size_t kSeeing = 16, kSeeingPartly = 48;  ///< of each part so many look at edges and faces
 constexpr std::size_t kEdges = 1024, kMostEdges = 4096, kOneEdgeOf = 32, kFaces = 1024;

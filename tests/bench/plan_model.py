@@ -1,6 +1,6 @@
 """The planner's model of times and errors: fits constants to measured rows, says how far the fit is off, and how good plans are.
 
-  plan_model.py fit ROWS.jsonl CALIBRATION.json HEADER DOCUMENT   writes the constants, and how far they are off into the document
+  plan_model.py fit ROWS.jsonl HEADER DOCUMENT   writes the constants, and how far they are off into the document
   plan_model.py check FOOLISH.jsonl RANDOM.jsonl DOCUMENT         writes what plans cost beside the best method into the document
   plan_model.py example PENUMBRA DOCUMENT                         writes what `penumbra plan` says of the document's scene into it
 
@@ -203,14 +203,14 @@ def write_example(penumbra, document):
     replace_block(document, "<!-- saved -->", "\n".join(lines))
 
 
-def fit(path, calibration, header, document):
+def fit(path, header, document):
     rows = read_rows(path)
     model = Model(rows)
-    write_header(header, model, json.loads(calibration.read_text()))
+    write_header(header, model)
     replace_block(document, "<!-- residuals -->", residuals_of(rows, model))
 
 
-def write_header(path, model, calibration):
+def write_header(path, model):
     names = [("Silhouette", ["Receiver", "CasterEdge", "BandEdge", "Merged", "RootOfEdges", "Length", "Box"], model.silhouette),
              ("Ray", ["Receiver", "", "LogFaces", "RootOfBoxes", "RootOfEdges", "RootOfBoth"], model.ray),
              ("Rays", ["Receiver", "CasterEdge", "BandEdge", "RootOfEdges", "Edge", "Box", "OpenPenumbra", "OpenRest"], model.rays),
@@ -221,8 +221,6 @@ def write_header(path, model, calibration):
     lines += ["// RMSE of V over the penumbra; kErrorOfRays: a factor."]
     lines += [line("ErrorOfFew", model.errors["few"]), line("ErrorOfMany", model.errors["many"]),
               line("ErrorOfRays", model.errors["rays"])]
-    lines += ["// Milliseconds of `penumbra plan --calibrate` on that machine."]
-    lines += [line("CalibrationSilhouette", calibration["silhouette_ms"]), line("CalibrationReference", calibration["reference_ms"])]
     path.write_text("// Constants of the planner's model. Made by `./run plan-model` from data/plan/rows.jsonl: do not edit.\n"
                     "#pragma once\n\nnamespace penumbra::detail::fit {\n\n" + "\n".join(lines) + "\n\n}  // namespace penumbra::detail::fit\n")
 

@@ -5,7 +5,7 @@
 
 #include "penumbra/mesh/shapes.h"
 #include "penumbra/render/renderer.h"
-#include "render/plan/cost_model_fit.h"
+#include "render/plan/cost_model.h"
 
 namespace penumbra::apps {
 namespace {
@@ -38,10 +38,14 @@ double least_ms(Renderer& renderer, const RenderOptions& options) {
 Calibration calibrate(int threads) {
   Renderer renderer(calibration_scene(), threads);
   Calibration out;
-  out.silhouette_ms = least_ms(renderer, {.method = "silhouette"});
-  out.reference_ms = least_ms(renderer, {.method = "reference", .options = {{"samples", std::uint64_t{64}}}});
-  out.speed = std::sqrt(detail::fit::kCalibrationSilhouette / out.silhouette_ms *
-                        detail::fit::kCalibrationReference / out.reference_ms);
+  constexpr int kSamples = 64;
+  const RenderOptions silhouette{.method = "silhouette"};
+  const RenderOptions reference{.method = "reference", .options = {{"samples", std::uint64_t{kSamples}}}};
+  out.silhouette_ms = least_ms(renderer, silhouette);
+  out.reference_ms = least_ms(renderer, reference);
+  const LightFacts facts = renderer.plan({}, silhouette.width, silhouette.height).front().facts;
+  out.speed = std::sqrt(detail::cost_of_silhouette(facts).frame / out.silhouette_ms *
+                        detail::cost_of_reference(facts, kSamples).frame / out.reference_ms);
   return out;
 }
 
