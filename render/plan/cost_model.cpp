@@ -61,6 +61,15 @@ Few few_of(const SampledPart& part, int up_to) {
   return {count / static_cast<double>(part.edges_each.size()), all > 0.0 ? few / all : 1.0};
 }
 
+/// The share of the penumbra's receivers that rays are traced for. One receiver more than those that were looked at is taken to
+/// be one of them: that none of some dozens is does not say that none of thousands is.
+double traced_of(const SampledPart& part, int areas_up_to) {
+  const double few = few_of(part, areas_up_to).share;
+  const auto looked_at = static_cast<double>(part.edges_each.size());
+  if (looked_at < 1.0) return 1.0 - few;
+  return ((1.0 - few) * looked_at + 1.0) / (looked_at + 1.0);
+}
+
 double root_of_edges_of(const SampledPart& part) {
   return std::sqrt(part.edges);
 }
@@ -159,7 +168,7 @@ double error_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
   const double by_chance = facts.sampled.variance / n,
                by_strata = facts.sampled.boundary / (n * std::sqrt(n));
   if (!(by_chance + by_strata > 0.0)) return 0.0;
-  const double traced = 1.0 - few_of(facts.sampled.penumbra, areas_up_to).share;
+  const double traced = traced_of(facts.sampled.penumbra, areas_up_to);
   const double of_areas = areas_up_to > 0 ? error_of_silhouette(facts) : 0.0;
   return std::hypot(of_areas,
                     fit::kErrorOfRays * std::sqrt(traced * by_chance * by_strata / (by_chance + by_strata)));

@@ -37,8 +37,8 @@ int areas_up_to(const LightFacts& facts, int samples);
 
 /// RMSE of V over the penumbra.
 double error_of_silhouette(const LightFacts& facts);
-/// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts), times what nine of ten scenes keep; but no error
-/// where there are areas.
+/// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts), times what nineteen of twenty scenes keep; but
+/// no error of rays where there are areas.
 double error_of_rays(const LightFacts& facts, int samples, int areas_up_to = 0);
 /// The least number of rays for that error, 4 to 65,536, of those whose strata make a square or nearly one. `with_areas`: as many
 /// as areas_up_to() says.

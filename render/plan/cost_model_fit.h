@@ -31,6 +31,6 @@ inline constexpr double kMergingEdgeTimesRoot = 0.9158;
 // RMSE of V over the penumbra; kErrorOfRays: a factor.
 inline constexpr double kErrorOfFew = 0.000428;
 inline constexpr double kErrorOfMany = 0.000836;
-inline constexpr double kErrorOfRays = 1.271;
+inline constexpr double kErrorOfRays = 1.36;
 
 }  // namespace penumbra::detail::fit

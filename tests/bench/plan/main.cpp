@@ -18,6 +18,7 @@ constexpr const char* kHelp = R"(penumbra_plan_bench WHAT FILE [CASE...]
   fit      scenes of the fit, at 320x240; those by chance at 240x180
   foolish  scenes on which some method is foolish, at 320x240, and what auto does for errors of .05 to .002
   facts    facts anew for the rows of FILE, which keep what was measured: written into FILE.facts
+  plans    facts anew and what auto does anew, for the rows of random: written into FILE.plans
   random   random-FIRST random-LAST, at 240x180, and what auto does for one error each
   scaling  (no FILE) what casters and lights cost that the picture does not call for
 Adds a line of JSON to FILE for each scene that it has not. K/N before the cases: of N shares the Kth, from 0.)";
@@ -49,6 +50,10 @@ std::vector<Setting> ladder() {
   return out;
 }
 
+std::uint64_t seed_of(const std::string& name) {
+  return std::stoull(name.substr(name.find('-') + 1));
+}
+
 /// Another one for each scene in turn.
 double budget_of(std::uint64_t seed) {
   constexpr double kBudgets[] = {0.05, 0.03, 0.02, 0.01, 0.005, 0.003};
@@ -77,8 +82,7 @@ nlohmann::json measure(const std::string& what, const std::string& name) {
   if (what == "foolish")
     return MeasuredScene(plan_case(name), {.judged = 500, .judge_samples = 1'024})
         .row(ladder(), {0.05, 0.02, 0.01, 0.005, 0.002});
-  const auto seed = static_cast<std::uint64_t>(std::stoull(name.substr(name.find('-') + 1)));
-  return MeasuredScene(plan_case(name), kSmall).row(ladder(), {budget_of(seed)});
+  return MeasuredScene(plan_case(name), kSmall).row(ladder(), {budget_of(seed_of(name))});
 }
 
 std::vector<std::string> random_cases(const std::vector<std::string>& ends) {
@@ -89,17 +93,21 @@ std::vector<std::string> random_cases(const std::vector<std::string>& ends) {
   return out;
 }
 
-void find_facts_anew(const std::string& file) {
+/// `with_plans`: also what auto does; else nothing is judged.
+void measure_anew(const std::string& file, bool with_plans) {
   std::ifstream in(file);
-  std::ofstream out(file + ".facts");
+  std::ofstream out(file + (with_plans ? ".plans" : ".facts"));
   for (std::string line; std::getline(in, line);) {
     nlohmann::json row = nlohmann::json::parse(line);
     const auto name = row.at("name").get<std::string>();
     MeasureOptions options = is_random(name) ? kSmall : MeasureOptions{};
-    options.judged = 0;
-    const nlohmann::json anew = MeasuredScene(plan_case(name), options).row({}, {});
-    for (const char* key : {"facts", "plan_ms"}) row[key] = anew.at(key);
-    out << row.dump() << "\n";
+    std::vector<double> budgets;
+    if (with_plans && is_random(name)) budgets.push_back(budget_of(seed_of(name)));
+    if (budgets.empty()) options.judged = 0;
+    const nlohmann::json anew = MeasuredScene(plan_case(name), options).row({}, budgets);
+    for (const char* key : {"facts", "plan_ms", "auto"})
+      if (anew.contains(key)) row[key] = anew.at(key);
+    out << row.dump() << "\n" << std::flush;
   }
 }
 
@@ -108,7 +116,8 @@ int run(const std::vector<std::string>& words) {
     std::printf("%s\n", measure_scaling().dump(2).c_str());
     return 0;
   }
-  if (words.size() == 2 && words[0] == "facts") return find_facts_anew(words[1]), 0;
+  if (words.size() == 2 && (words[0] == "facts" || words[0] == "plans"))
+    return measure_anew(words[1], words[0] == "plans"), 0;
   if (words.size() < 2 || (words[0] != "fit" && words[0] != "foolish" && words[0] != "random")) {
     std::puts(kHelp);
     return 2;

@@ -45,14 +45,16 @@ struct Pictures {
   LightPlan plan;
 };
 
-/// By auto, and by the method that it chose among all casters.
-Pictures see_both(const Scene& scene, const Receivers& receivers) {
+/// By auto, and by the method that it chose among all casters. `by_areas`: areas at all receivers are asked for.
+Pictures see_both(const Scene& scene, const Receivers& receivers, bool by_areas = false) {
   const RayScene rays(scene, 0);
   const LightShape& light = scene.lights.front().shape;
   Pictures out;
-  out.plan = plan_light(scene, rays, light, receivers, {});
+  out.plan = plan_light(scene, rays, light, receivers,
+                        {.effects = {.areas = by_areas ? EffectChoice::kOn : EffectChoice::kPlanned}});
   const Casters casters(scene.objects);
-  out.planned = visibility(casters, light, receivers, {.method = "auto"});
+  out.planned = visibility(casters, light, receivers,
+                           {.method = "auto", .options = {{"effect-areas", by_areas ? "on" : "planned"}}});
   const bool runs = out.plan.action == LightPlan::Action::kMethod;
   out.whole = visibility(casters, light, receivers,
                          {.method = runs ? out.plan.method : "silhouette", .options = out.plan.options});
@@ -60,16 +62,17 @@ Pictures see_both(const Scene& scene, const Receivers& receivers) {
 }
 
 TEST(AutoMethod, WhatItLeavesOutChangesNothing) {
-  std::size_t left_out = 0, unshadowed = 0, dark = 0, by_silhouettes = 0;
+  std::size_t left_out = 0, unshadowed = 0, dark = 0, by_silhouettes = 0, by_rays = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     const Scene scene = strewn(seed, seed % 3 == 0 ? 3 : 40);
     const testing::View view(scene, 96, 72);
     const Receivers receivers = view.surface.receivers();
-    const Pictures both = see_both(scene, receivers);
+    const Pictures both = see_both(scene, receivers, seed % 2 == 0);
     left_out += both.plan.left_out.size();
     unshadowed += both.plan.action == LightPlan::Action::kUnshadowed ? 1 : 0;
     dark += both.plan.action == LightPlan::Action::kDark ? 1 : 0;
     by_silhouettes += both.plan.method == "silhouette" ? 1 : 0;
+    by_rays += both.plan.method == "rays" ? 1 : 0;
     for (std::size_t i = 0; i < receivers.size(); ++i) {
       ASSERT_NEAR(both.planned.visibility[i], both.whole.visibility[i], 2e-5) << "seed " << seed << ", " << i;
       // A certificate may be had or not by rounding; it is never another one.
@@ -81,6 +84,7 @@ TEST(AutoMethod, WhatItLeavesOutChangesNothing) {
   EXPECT_GT(left_out, 300u);
   EXPECT_GT(unshadowed, 0u);
   EXPECT_GT(by_silhouettes, 20u);
+  EXPECT_GT(by_rays, 5u);
 }
 
 // A thin post whose penumbra's edge is moved over the one visible receiver, by steps of a thousandth of the light.
