@@ -1,8 +1,9 @@
 """The planner's model of times and errors: fits constants to measured rows, says how far the fit is off, and how good plans are.
 
   plan_model.py fit ROWS.jsonl HEADER DOCUMENT   writes the constants, and how far they are off into the document
-  plan_model.py check FOOLISH.jsonl RANDOM.jsonl DOCUMENT         writes what plans cost beside the best method into the document
-  plan_model.py example PENUMBRA DOCUMENT                         writes what `penumbra plan` says of the document's scene into it
+  plan_model.py check RANDOM.jsonl [FOOLISH.jsonl]   says what plans cost beside the fastest method
+  plan_model.py checked RANDOM.jsonl DOCUMENT        writes that into the document
+  plan_model.py example PENUMBRA DOCUMENT            writes what `penumbra plan` says of the document's scene into it
 
 Rows are those of penumbra_plan_bench (tests/bench/plan): for each scene the facts of its plan, and for each method milliseconds of the
 processor's time on one thread, halved for two cores, and the RMSE of V over the penumbra by rays in double without offset.
@@ -301,13 +302,15 @@ def judged_plans(rows):
 def summary(plans):
     met = [p for p in plans if p["best"]]
     share = lambda some, of: f"{len(some)} of {len(of)}"
-    return [f"- The error is kept in {share([p for p in met if p['kept_by_estimate']], met)}; "
+    lines = [f"- The error is kept in {share([p for p in met if p['kept_by_estimate']], met)}; "
             f"in {share([p for p in met if p['kept']], met)} by the lower end of the 95% interval.",
             f"- The time is within 1.25 times that of the fastest method that keeps the error in {share([p for p in met if p['ratio'] <= 1.25], met)}, "
             f"within 1.3 times in {share([p for p in met if p['ratio'] <= 1.3], met)}, or within half a millisecond of it in "
-            f"{share([p for p in met if p['ratio'] <= 1.25 or p['time'] - p['best'] <= .5], met)}.",
-            f"- No method was seen to keep the error in {len(plans) - len(met)}; the plan says so in "
-            f"{len([p for p in plans if not p['best'] and not p['said']])} of these."]
+            f"{share([p for p in met if p['ratio'] <= 1.25 or p['time'] - p['best'] <= .5], met)}."]
+    if len(met) < len(plans):
+        lines.append(f"- No method was seen to keep the error in {len(plans) - len(met)}; the plan says so in "
+                     f"{len([p for p in plans if not p['best'] and not p['said']])} of these.")
+    return lines
 
 
 def worst(plans, count):
@@ -317,19 +320,29 @@ def worst(plans, count):
     return lines
 
 
-def check(foolish, chance, document):
-    lines = []
-    if foolish.exists():
-        plans = judged_plans(read_rows(foolish))
-        lines += [f"Scenes on which some method is foolish, {len(plans)} plans for errors of .05 to .002; set-up and planning included:", ""]
-        lines += summary(plans) + [""] + worst(plans, 8) + [""]
-    if chance.exists():
-        plans = judged_plans(read_rows(chance))
-        lines += [f"Scenes by chance, {len(plans)} that have a penumbra, one error each of .05 to .003:", ""] + summary(plans) + [""] + worst(plans, 8)
-    replace_block(document, "<!-- check -->", "\n".join(lines))
-    print("\n".join(lines))
+def said_of(rows, words):
+    plans = judged_plans(rows)
+    return "\n".join([f"{len(plans)} plans for {words}:", ""] + summary(plans) + [""] + worst(plans, 8))
+
+
+def blocks_of(chance):
+    """What is said of scenes by chance, by the document's marks; of plans by an earlier model, too, where the rows have them."""
+    rows, words = read_rows(chance), "scenes by chance that have a penumbra, each for one error of .05 to .003"
+    before = {name: row | {"auto": row["auto_before"]} for name, row in rows.items() if "auto_before" in row}
+    return ({"<!-- before -->": said_of(before, words)} if before else {}) | {"<!-- check -->": said_of(rows, words)}
+
+
+def check(chance, foolish=None):
+    print("\n\n".join(blocks_of(chance).values()))
+    if foolish:
+        print("\n" + said_of(read_rows(foolish), "scenes on which some method is foolish, for errors of .05 to .002"))
+
+
+def write_checked(chance, document):
+    for begin, text in blocks_of(chance).items():
+        replace_block(document, begin, text)
 
 
 if __name__ == "__main__":
     command, paths = sys.argv[1], [Path(path) for path in sys.argv[2:]]
-    {"fit": fit, "check": check, "example": write_example}[command](*paths)
+    {"fit": fit, "check": check, "checked": write_checked, "example": write_example}[command](*paths)
