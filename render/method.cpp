@@ -6,6 +6,7 @@
 #include "render/depth_complexity/depth_complexity_method.h"
 #include "render/plan/auto_method.h"
 #include "render/rays/ray_methods.h"
+#include "render/shadow_volumes/shadow_volumes_method.h"
 #include "render/silhouette/silhouette_method.h"
 #include "render/support/nearest_word.h"
 
@@ -54,6 +55,7 @@ std::deque<MethodInfo> built_in() {
   add(known, reference_method());
   add(known, rays_method());
   add(known, depth_complexity_method());
+  add(known, shadow_volumes_method());
   add(known, hard_method());
   add(known, no_shadow_method());
   return known;
