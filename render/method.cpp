@@ -9,6 +9,7 @@
 #include "render/shadow_volumes/shadow_volumes_method.h"
 #include "render/silhouette/silhouette_method.h"
 #include "render/support/nearest_word.h"
+#include "render/view_samples/view_samples_method.h"
 
 namespace penumbra {
 namespace {
@@ -56,6 +57,7 @@ std::deque<MethodInfo> built_in() {
   add(known, rays_method());
   add(known, depth_complexity_method());
   add(known, shadow_volumes_method());
+  add(known, view_samples_method());
   add(known, hard_method());
   add(known, no_shadow_method());
   return known;
