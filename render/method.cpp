@@ -5,6 +5,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/depth_complexity/depth_complexity_method.h"
 #include "render/pcss/pcss_method.h"
+#include "render/penumbra_maps/penumbra_maps_method.h"
 #include "render/plan/auto_method.h"
 #include "render/rays/ray_methods.h"
 #include "render/shadow_volumes/shadow_volumes_method.h"
@@ -58,6 +59,7 @@ std::deque<MethodInfo> built_in() {
   add(known, rays_method());
   add(known, depth_complexity_method());
   add(known, pcss_method());
+  add(known, penumbra_maps_method());
   add(known, shadow_volumes_method());
   add(known, view_samples_method());
   add(known, hard_method());
