@@ -10,6 +10,7 @@
 #include "render/rays/ray_methods.h"
 #include "render/shadow_volumes/shadow_volumes_method.h"
 #include "render/silhouette/silhouette_method.h"
+#include "render/smoothies/smoothies_method.h"
 #include "render/support/nearest_word.h"
 #include "render/view_samples/view_samples_method.h"
 
@@ -60,6 +61,7 @@ std::deque<MethodInfo> built_in() {
   add(known, depth_complexity_method());
   add(known, pcss_method());
   add(known, penumbra_maps_method());
+  add(known, smoothies_method());
   add(known, shadow_volumes_method());
   add(known, view_samples_method());
   add(known, hard_method());
