@@ -4,6 +4,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/depth_complexity/depth_complexity_method.h"
+#include "render/layered_attenuation/layered_attenuation_method.h"
 #include "render/pcss/pcss_method.h"
 #include "render/penumbra_maps/penumbra_maps_method.h"
 #include "render/plan/auto_method.h"
@@ -62,6 +63,7 @@ std::deque<MethodInfo> built_in() {
   add(known, pcss_method());
   add(known, penumbra_maps_method());
   add(known, smoothies_method());
+  add(known, layered_attenuation_method());
   add(known, shadow_volumes_method());
   add(known, view_samples_method());
   add(known, hard_method());
