@@ -13,6 +13,7 @@
 #include "render/silhouette/silhouette_method.h"
 #include "render/smoothies/smoothies_method.h"
 #include "render/support/nearest_word.h"
+#include "render/variance/variance_method.h"
 #include "render/view_samples/view_samples_method.h"
 
 namespace penumbra {
@@ -61,6 +62,7 @@ std::deque<MethodInfo> built_in() {
   add(known, rays_method());
   add(known, depth_complexity_method());
   add(known, pcss_method());
+  add(known, variance_method());
   add(known, penumbra_maps_method());
   add(known, smoothies_method());
   add(known, layered_attenuation_method());
