@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "penumbra/mesh/error.h"
+#include "render/backprojection/backprojection_method.h"
 #include "render/depth_complexity/depth_complexity_method.h"
 #include "render/layered_attenuation/layered_attenuation_method.h"
 #include "render/pcss/pcss_method.h"
@@ -65,6 +66,7 @@ std::deque<MethodInfo> built_in() {
   add(known, variance_method());
   add(known, penumbra_maps_method());
   add(known, smoothies_method());
+  add(known, backprojection_method());
   add(known, layered_attenuation_method());
   add(known, shadow_volumes_method());
   add(known, view_samples_method());
