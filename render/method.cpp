@@ -13,6 +13,7 @@
 #include "render/shadow_volumes/shadow_volumes_method.h"
 #include "render/silhouette/silhouette_method.h"
 #include "render/smoothies/smoothies_method.h"
+#include "render/soft_shadow_volumes/soft_shadow_volumes_method.h"
 #include "render/support/nearest_word.h"
 #include "render/variance/variance_method.h"
 #include "render/view_samples/view_samples_method.h"
@@ -69,6 +70,7 @@ std::deque<MethodInfo> built_in() {
   add(known, backprojection_method());
   add(known, layered_attenuation_method());
   add(known, shadow_volumes_method());
+  add(known, soft_shadow_volumes_method());
   add(known, view_samples_method());
   add(known, hard_method());
   add(known, no_shadow_method());
