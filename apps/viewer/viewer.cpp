@@ -56,9 +56,10 @@ int Viewer::run() {
 }
 
 void Viewer::draw_frame(const std::shared_ptr<const Frame>& frame) {
-  canvas_.update(state(), frame);
+  canvas_.show(frame);
   window_.begin_frame();
-  draw();
+  draw();  // asks for the next picture, which is made while this one is drawn
+  canvas_.upload(state());
   window_.draw_frame();
   drawn_ = std::chrono::steady_clock::now();
   ++frames_;

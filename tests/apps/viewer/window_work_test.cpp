@@ -88,6 +88,16 @@ TEST_F(WorkTest, ALightThatIsDraggedTurnsToWhatItShoneAtUnlessToldOtherwise) {
   EXPECT_EQ(status()["light"]["normal"], before["light"]["normal"]);
 }
 
+// What is as small is drawn in time whatever else the machine does.
+TEST_F(WorkTest, ALightIsDraggedAtFullSizeWhereThatKeepsUp) {
+  open({kCube, "--size", "480x400"});
+  const Json before = status();
+  drag(before["handles"]["center"], 20, 5, "a picture of full size meanwhile", [&](const Json& s) {
+    return s["light"]["center"] != before["light"]["center"] && s["frame"]["final"] == false &&
+           s["frame"]["reduction"] == 1;
+  });
+}
+
 TEST_F(WorkTest, EscapeEndsADragAndTakesItBack) {
   open({kCube, "--size", "480x400"});
   const Json before = status();
