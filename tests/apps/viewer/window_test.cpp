@@ -168,16 +168,26 @@ TEST_F(WindowTest, KeysChangeMethodAndArrangementAndTheDividerMoves) {
   EXPECT_EQ(wait_for_end(), 0);
 }
 
-TEST_F(WindowTest, ExportsVolumesAndASequence) {
+// The solids are those of the command line, the cells its cells.
+TEST_F(WindowTest, ExportsSolidsCellsAndASequence) {
   open({kCube, "--size", "160x120"});
   const auto says = [](const char* words) {
     return
         [words](const Json& s) { return s["message"].get<std::string>().find(words) != std::string::npos; };
   };
   key("ctrl+e");
-  until("the volumes", says("saved"));
-  for (const char* kind : {"sheets", "penumbra", "umbra"})
-    EXPECT_TRUE(std::filesystem::exists(file(std::string("cube-medium-") + kind + ".ply"))) << kind;
+  until("the solids", says("cube-medium-001-{umbra,penumbra}.ply"));
+  key("ctrl+shift+e");
+  until("the cells", says("cube-medium-001-{sheets,penumbra-cells,umbra-cells}.ply"));
+  for (const char* form : {"solid", "cells"}) {
+    const std::string end = std::string(form) == "cells" ? "-cells.ply" : ".ply";
+    const Outcome cli = run(
+        {"volumes", kCube, "--merge", "--form", form, "--umbra", path("u.ply"), "--penumbra", path("p.ply")});
+    ASSERT_EQ(cli.code, 0) << cli.err;
+    EXPECT_TRUE(read_text(file("cube-medium-001-umbra" + end)) == read_text(file("u.ply"))) << form;
+    EXPECT_TRUE(read_text(file("cube-medium-001-penumbra" + end)) == read_text(file("p.ply"))) << form;
+  }
+  EXPECT_TRUE(std::filesystem::exists(file("cube-medium-001-sheets.ply")));
   key("ctrl+p");
   until("the sequence", says("24 pictures"));
   EXPECT_TRUE(std::filesystem::exists(file("cube-medium-path-024.png")));

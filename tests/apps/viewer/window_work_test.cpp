@@ -113,6 +113,20 @@ TEST_F(WorkTest, EscapeEndsADragAndTakesItBack) {
   EXPECT_EQ(status()["can_undo"], false);
 }
 
+// The usual detail of a torus takes many seconds.
+TEST_F(WorkTest, EscapeGivesUpAnExportAndThenLeaves) {
+  open({kTorus, "--size", "320x200"});
+  key("ctrl+e");
+  until("the export", [](const Json& s) {
+    return s["activity"].get<std::string>().starts_with("exporting umbra and penumbra");
+  });
+  key("Escape");
+  until("its end", [](const Json& s) { return s["message"] == "given up: umbra and penumbra"; });
+  EXPECT_FALSE(std::filesystem::exists(file("torus-medium-001-umbra.ply")));
+  key("Escape");
+  EXPECT_EQ(wait_for_end(), 0);
+}
+
 TEST_F(WorkTest, EscapeAsksBeforeAChangedLightIsLost) {
   open({kCube, "--size", "480x400"});
   const Json before = move_light(), moved = status();
