@@ -13,9 +13,11 @@ constexpr double kSlack = 1.15;
 constexpr double kNewest = 0.5;
 /// Drafts, about two seconds.
 constexpr int kMostPatience = 64;
-/// Of a draft's time, so much is taken not to depend on its size when a finer one is thought of. Where it is less, the finer one is
-/// tried in vain.
+/// Of a draft's time, so much is taken not to depend on its size when a finer one is thought of.
 constexpr double kFixed = 0.3;
+/// A finer draft of which nothing is known is tried where it is expected to take no more than so many budgets: on a busy machine
+/// much more of a draft's time does not depend on its size. In vain it is tried less and less often.
+constexpr double kVentured = 2.0;
 
 OptionValue value_now(const OptionSchema& option, const RenderOptions& options) {
   const auto given = options.options.find(option.name);
@@ -80,10 +82,17 @@ void DraftPolicy::choose(int shown) {
   }
   while (reduction_ > 1) {
     const double finer = expected(reduction_ - 1, reduction_, now);
-    if (finer > kBudget) break;
+    const bool is_known = known(reduction_ - 1).believed > 0;
+    if (finer > (is_known ? kBudget : kVentured * kBudget)) break;
     now = finer;
     --reduction_;
   }
+}
+
+void DraftPolicy::start(double milliseconds) {
+  known_ = {};
+  known(1).milliseconds = milliseconds;
+  choose(1);
 }
 
 void DraftPolicy::took(double milliseconds, bool camera_moved) {

@@ -16,6 +16,8 @@ class DraftPolicy {
   RenderOptions draft_of(const RenderOptions& options) const;
   /// Whether a draft of full size is the picture itself.
   static bool is_as_cheap(const RenderOptions& options);
+  /// Tells how long the first picture of a scene took. Later ones take less, so it decides on the first draft and nothing else.
+  void start(double milliseconds);
   /// Tells how long the last draft took, all sides together, and whether the camera moved: then drafts cost more, and what is
   /// known of those of a light is forgotten.
   void took(double milliseconds, bool camera_moved);

@@ -228,8 +228,10 @@ void RenderWorker::answer(const RenderJob& job) {
   const bool is_new = model_ != job.model;
   render_sides(job, job.sides, frame);
   const bool as_cheap = std::ranges::all_of(job.sides, DraftPolicy::is_as_cheap);
-  draft_.took_in_full(is_new ? without_camera(frame) : cost_of_next(frame, moved), moved && !is_new,
-                      as_cheap);
+  if (!is_new)
+    draft_.took_in_full(cost_of_next(frame, moved), moved, as_cheap);
+  else if (as_cheap)
+    draft_.start(without_camera(frame));
   frame.final = true;
   frame.refining = has_reference(job.sides) && job.refine_to > 0;
   publish(frame);
