@@ -97,8 +97,7 @@ Picture side_by_side(std::span<const JudgedImage> images, const Image* reference
     add(shown(judged.image, judged.image.at(judged.channel)), judged.name);
   add(shown(reference ? *reference : first.image, first.comparison.reference), reference_name);
   for (const JudgedImage& judged : images)
-    add(difference_picture(judged, scale),
-        images.size() == 1 ? "visibility, left - middle" : judged.name + ", error");
+    add(difference_picture(judged, scale), images.size() == 1 ? "error" : judged.name + ", error");
   draw_scale(picture, picture.width() - kGap, kBaseline, scale);
   return picture;
 }

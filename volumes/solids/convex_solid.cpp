@@ -14,6 +14,7 @@
 #include "volumes/cells/shadow_reach.h"
 #include "volumes/cells/solid_shape.h"
 #include "volumes/predicates/predicate_tiers.h"
+#include "volumes/solids/rounded_corners.h"
 #include "volumes/solids/simplify/face_boxes.h"
 #include "volumes/solids/simplify/triangle_conflict.h"
 
@@ -119,6 +120,7 @@ std::optional<SolidMesh> mesh_convex_shadow(const SolidMeshRequest& request) {
       add_umbra(request, out);
     else
       add_penumbra(request, corners + more, out);
+    merge_rounded_corners(out);
     if (!out.triangles.empty() && !is_spoiled(out)) break;
     out.triangles.clear();
   }

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kLongFrame = 150.0;    // ms; caches of another setting do not matter to it
 constexpr double kDearFrame = 2'000.0;  // ms; one timed frame says enough
+constexpr double kRestless = 0.1;       // quartiles further apart than this part of the median
+constexpr int kMostRounds = 3;          // times as many rounds as asked for, while the machine is busy
 
 RenderOptions options_of(const Setting& setting, const StudyView& view) {
   return {.method = setting.method, .options = setting.options, .width = view.width, .height = view.height};
@@ -63,6 +65,11 @@ class StageTable {
   std::map<std::string, std::vector<double>> times_;
 };
 
+bool are_restless(const std::vector<double>& ratios) {
+  const Quartiles q = quartiles_of(ratios);
+  return q.high - q.low > kRestless * q.median;
+}
+
 }  // namespace
 
 Quartiles quartiles_of(std::vector<double> values) {
@@ -85,10 +92,18 @@ std::vector<Measured> measure_in_turn(Renderer& renderer, const StudyView& view,
       .method = kDefaultMethod, .options = {}, .width = view.width, .height = view.height};
   const bool with_partner = takes(method_named(kDefaultMethod), renderer.scene().lights.front().shape);
   std::vector<StageTable> stages(settings.size());
-  for (int round = 0; round < rounds; ++round) {
+  const auto is_measured = [&](std::size_t k, int round) {
+    if (!out[k].refused.empty()) return false;
+    if (round == 0) return true;
+    return expected[k] <= kDearFrame && (round < rounds || are_restless(out[k].over_default));
+  };
+  for (int round = 0; round < kMostRounds * rounds; ++round) {
+    std::vector<std::size_t> measured;
+    for (std::size_t k = 0; k < settings.size(); ++k)
+      if (is_measured(k, round)) measured.push_back(k);
+    if (measured.empty()) break;
     const double unit = with_partner ? timed_frame(renderer, partner, 0.0).frame_ms : 0.0;
-    for (std::size_t k = 0; k < settings.size(); ++k) {
-      if (!out[k].refused.empty() || (round > 0 && expected[k] > kDearFrame)) continue;
+    for (const std::size_t k : measured) {
       const RenderResult frame = timed_frame(renderer, options_of(settings[k], view), expected[k]);
       out[k].frames.push_back(frame.frame_ms);
       if (with_partner) out[k].over_default.push_back(frame.frame_ms / unit);

@@ -38,7 +38,8 @@ struct Quartiles {
 };
 Quartiles quartiles_of(std::vector<double> values);
 
-/// One warm-up frame each, then `rounds` rounds. `renderer` has the case's scene. Throws Cancelled.
+/// One warm-up frame each, then `rounds` rounds; up to three times as many of those whose ratios to the default method's frame still differ,
+/// between their quartiles, by more than a tenth of the median. `renderer` has the case's scene. Throws Cancelled.
 std::vector<Measured> measure_in_turn(Renderer& renderer, const StudyView& view,
                                       std::span<const Setting> settings, int rounds);
 

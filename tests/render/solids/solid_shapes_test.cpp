@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <random>
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/shapes.h"
@@ -101,6 +102,42 @@ TEST(SolidShapes, ACasterThroughTheLightsPlaneCastsInFrontOfIt) {
     expect_sound(solid.mesh);
     EXPECT_LE(bounds_of(solid.mesh.positions).high.y, 1.2 + 0.1 * 0.04);
     EXPECT_TRUE(SolidInside(solid.mesh).contains(Vec3(1.5, 0.9, 0.0)));
+  }
+}
+
+/// A turned box is convex but for rounding. What is convex within it has corners some units in the last place apart.
+TEST(SolidShapes, UmbrasOfTurnedBoxesHaveNoTrianglesOfTheSizeOfRounding) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const DiskLight light{{0.0, 10.0, 0.0}, {0.0, -1.0, 0.0}, 0.8};
+  for (int i = 0; i < 100; ++i) {
+    const Vec3 u = glm::normalize(Vec3(unit(random), unit(random), 1.0));
+    const Vec3 v = glm::normalize(glm::cross(u, Vec3(unit(random), 1.0, unit(random))));
+    std::vector<Vec3> corners;
+    for (int k = 0; k < 8; ++k)
+      corners.push_back(Vec3(0.0, 4.0, 0.0) + (k & 1 ? 0.3 : -0.3) * u + (k & 2 ? 0.3 : -0.3) * v +
+                        (k & 4 ? 0.3 : -0.3) * glm::cross(u, v));
+    const TriangleMesh body = TriangleMesh::build(corners, std::vector<IndexedTriangle>{{0, 1, 3},
+                                                                                        {0, 3, 2},
+                                                                                        {4, 6, 7},
+                                                                                        {4, 7, 5},
+                                                                                        {0, 4, 5},
+                                                                                        {0, 5, 1},
+                                                                                        {2, 3, 7},
+                                                                                        {2, 7, 6},
+                                                                                        {0, 2, 6},
+                                                                                        {0, 6, 4},
+                                                                                        {1, 5, 7},
+                                                                                        {1, 7, 3}});
+    const ShadowSolid solid =
+        solid_of({body}, light, {Kind::kUmbra}, {.bound = {Vec3(-5.0, 0.0, -5.0), Vec3(5.0, 9.0, 5.0)}});
+    expect_sound(solid.mesh);
+    double shortest = 1.0;
+    for (const IndexedTriangle& t : solid.mesh.triangles)
+      for (int k = 0; k < 3; ++k)
+        shortest = std::min(shortest,
+                            glm::length(solid.mesh.positions[t[k]] - solid.mesh.positions[t[(k + 1) % 3]]));
+    EXPECT_GT(shortest, 1e-11) << i;
   }
 }
 

@@ -98,7 +98,7 @@
     get("about").textContent = text;
     const renderers = [...new Set(Study.rows.map(row => row.renderer).filter(Boolean))];
     get("how").replaceChildren(Study.element("ul", {}, ...[
-      `Times are medians of ${frames} warm frames; settings are run in turn. A whole frame is what the camera sees, visibility and shading.`,
+      `Times are medians of ${frames} warm frames, of more where they scatter; settings are run in turn. A whole frame is what the camera sees, visibility and shading.`,
       `Errors are of the fraction of the light that a pixel sees, against two independent references of ${samples} rays a pixel each; their noise is taken out of the RMSE.` +
         (resampled ? " The worst pixels were traced again with 65,536 rays before the 99 of 100 and the largest are stated." : " The 99 of 100 and the largest contain it."),
       `An RMSE after ≤, a hollow mark in the plots, is the upper end of its 95% interval, or what the references can tell from 0 at best: they cannot tell it from 0.`,

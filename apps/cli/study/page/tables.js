@@ -4,9 +4,9 @@
 Study.ERROR_BUDGETS = [0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
 Study.TIME_BUDGETS = [5, 10, 20, 50, 100, 300, 1000];
 
-Study.TIE_PERCENT = 6;
+Study.TIE_PERCENT = 20;
 
-/** Whether p is as good as the best, as far as this machine can tell: nearly the same, or times whose quartiles beside the default overlap. */
+/** Whether p is as good as the best, as far as a busy machine can tell: nearly the same, or times whose quartiles beside the default overlap. */
 const isTied = (p, best, wanted) => {
   if (p[wanted] <= best[wanted] * (1 + Study.TIE_PERCENT / 100)) return true;
   const [a, b] = [p.row.over_default, best.row.over_default];
