@@ -84,11 +84,11 @@ double without_camera(const Frame& frame) {
   return sum;
 }
 
-/// What the next picture of this kind takes: where the camera stood still, without its rays.
-double cost_of_next(const Frame& frame, bool camera_moved) {
-  const bool sees =
-      std::ranges::any_of(frame.sides, [](const Side& side) { return side.result->camera_rays > 0; });
-  return sees && !camera_moved ? without_camera(frame) : frame.milliseconds;
+/// Whether the next picture takes as long. Where only a light moves, the first picture of another size does not tell: the
+/// camera's rays, and receivers in groups, are kept for those that follow.
+bool tells(const Frame& frame, bool camera_moved) {
+  return camera_moved ||
+         std::ranges::all_of(frame.sides, [](const Side& side) { return side.result->camera_rays == 0; });
 }
 
 }  // namespace
@@ -214,7 +214,7 @@ void RenderWorker::answer(const RenderJob& job) {
     for (RenderOptions& each : options) each = draft_.draft_of(each);
     frame.reduction = draft_.reduction();
     render_sides(job, options, frame);
-    draft_.took(cost_of_next(frame, moved), moved);
+    if (tells(frame, moved)) draft_.took(frame.milliseconds, moved);
     return publish(std::move(frame));
   }
   if (has_reference(options)) {  // something to look at until all rays are traced
@@ -228,10 +228,8 @@ void RenderWorker::answer(const RenderJob& job) {
   const bool is_new = model_ != job.model;
   render_sides(job, job.sides, frame);
   const bool as_cheap = std::ranges::all_of(job.sides, DraftPolicy::is_as_cheap);
-  if (!is_new)
-    draft_.took_in_full(cost_of_next(frame, moved), moved, as_cheap);
-  else if (as_cheap)
-    draft_.start(without_camera(frame));
+  if (!is_new && tells(frame, moved)) draft_.took_in_full(frame.milliseconds, moved, as_cheap);
+  if (is_new && as_cheap) draft_.start(without_camera(frame));
   frame.final = true;
   frame.refining = has_reference(job.sides) && job.refine_to > 0;
   publish(frame);
