@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "penumbra/render/renderer.h"
 #include "tests/apps/viewer/window_driver.h"
 
 namespace penumbra::test {
@@ -50,8 +51,9 @@ TEST_F(WindowTest, OverlaysAndProbeAreDrawn) {
 }
 
 TEST_F(WindowTest, PlainWindowIsThePictureOfRender) {
-  for (const char* method :
-       {"none", "hard", "dbuffer", "occlusion-textures", "silhouette", "rays", "reference"}) {
+  register_drawing_methods();
+  for (const MethodInfo& info : methods()) {
+    const std::string& method = info.name;
     Child window = start({kCube, "--size", "320x200", "--plain", "--method", method, "--samples", "32",
                           "--screenshot", path("w.png")});
     ASSERT_EQ(window.wait(), 0) << read_text(file("errors"));
