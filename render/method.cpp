@@ -3,11 +3,20 @@
 #include <algorithm>
 
 #include "penumbra/mesh/error.h"
+#include "render/backprojection/backprojection_method.h"
 #include "render/depth_complexity/depth_complexity_method.h"
+#include "render/layered_attenuation/layered_attenuation_method.h"
+#include "render/pcss/pcss_method.h"
+#include "render/penumbra_maps/penumbra_maps_method.h"
 #include "render/plan/auto_method.h"
 #include "render/rays/ray_methods.h"
+#include "render/shadow_volumes/shadow_volumes_method.h"
 #include "render/silhouette/silhouette_method.h"
+#include "render/smoothies/smoothies_method.h"
+#include "render/soft_shadow_volumes/soft_shadow_volumes_method.h"
 #include "render/support/nearest_word.h"
+#include "render/variance/variance_method.h"
+#include "render/view_samples/view_samples_method.h"
 
 namespace penumbra {
 namespace {
@@ -54,6 +63,15 @@ std::deque<MethodInfo> built_in() {
   add(known, reference_method());
   add(known, rays_method());
   add(known, depth_complexity_method());
+  add(known, pcss_method());
+  add(known, variance_method());
+  add(known, penumbra_maps_method());
+  add(known, smoothies_method());
+  add(known, backprojection_method());
+  add(known, layered_attenuation_method());
+  add(known, shadow_volumes_method());
+  add(known, soft_shadow_volumes_method());
+  add(known, view_samples_method());
   add(known, hard_method());
   add(known, no_shadow_method());
   return known;

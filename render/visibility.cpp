@@ -74,4 +74,19 @@ MethodResult visibility(const Casters& casters, const LightShape& light, const R
   return result;
 }
 
+std::vector<MethodResult> visibility(const Casters& casters, std::span<const LightShape> lights,
+                                     const Receivers& receivers, const VisibilityOptions& options) {
+  Receivers kept = receivers;
+  if (kept.revision == 0) kept.revision = new_revision();
+  VisibilityOptions one = options;
+  std::vector<MethodResult> results;
+  const auto count = static_cast<double>(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    one.progress =
+        part_of(options.progress, static_cast<double>(i) / count, static_cast<double>(i + 1) / count);
+    results.push_back(visibility(casters, lights[i], kept, one));
+  }
+  return results;
+}
+
 }  // namespace penumbra

@@ -56,4 +56,9 @@ struct VisibilityOptions {
 MethodResult visibility(const Casters& casters, const LightShape& light, const Receivers& receivers,
                         const VisibilityOptions& options = {});
 
+/// Under several lights, one result for each in their order. What does not depend on the light is made once. The results hold
+/// lights · receivers numbers.
+std::vector<MethodResult> visibility(const Casters& casters, std::span<const LightShape> lights,
+                                     const Receivers& receivers, const VisibilityOptions& options = {});
+
 }  // namespace penumbra

@@ -10,6 +10,7 @@
 #include "mesh/io/little_endian.h"
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
+#include "volumes/shadow_glb.h"
 
 namespace penumbra {
 
@@ -64,7 +65,8 @@ struct Format {
   std::string_view name, extension;
   void (*write)(std::ostream& out, const ShadowMesh& mesh);
 };
-constexpr std::array<Format, 2> kFormats = {{{"PLY", ".ply", write_ply}, {"OBJ", ".obj", write_obj}}};
+constexpr std::array<Format, 3> kFormats = {
+    {{"PLY", ".ply", write_ply}, {"OBJ", ".obj", write_obj}, {"glTF", ".glb", detail::write_glb}}};
 
 std::vector<std::string_view> column(std::string_view Format::*member) {
   std::vector<std::string_view> values;

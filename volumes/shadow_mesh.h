@@ -77,12 +77,12 @@ ShadowMesh merge(std::span<const ShadowMesh> parts);
 
 /// The extensions that write_shadow_mesh knows: lower case, with the dot.
 std::vector<std::string_view> shadow_mesh_extensions();
-/// The formats' names in the same order, for help texts: "PLY or OBJ".
+/// The formats' names in the same order, for help texts: "PLY, OBJ or glTF".
 std::string shadow_mesh_format_names();
 
 /// Writes the format that the extension names; PLY for the path "-", which is standard output. PLY is binary,
 /// little endian, in double, with the properties `kind`, `source` and `object` of each face. OBJ has a group
-/// for each object and kind. The file is written whole or not at all. Throws UsageError for another
+/// for each object and kind. glTF is binary (.glb), in float around the middle of each object's part. The file is written whole or not at all. Throws UsageError for another
 /// extension, SystemError where writing fails. Cost O(triangles).
 void write_shadow_mesh(const std::filesystem::path& path, const ShadowMesh& mesh);
 

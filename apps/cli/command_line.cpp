@@ -65,6 +65,8 @@ int run_command_line(int argc, char** argv) {
   add_study_command(app);
   add_methods_command(app);
   add_plan_command(app);
+  add_sun_command(app);
+  add_bake_command(app);
   return run_guarded([&] { return parse_and_run(app, argc, argv); });
 }
 

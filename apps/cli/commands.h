@@ -18,5 +18,7 @@ void add_compare_command(CLI::App& app);
 void add_study_command(CLI::App& app);
 void add_methods_command(CLI::App& app);
 void add_plan_command(CLI::App& app);
+void add_sun_command(CLI::App& app);
+void add_bake_command(CLI::App& app);
 
 }  // namespace penumbra::apps

@@ -72,9 +72,18 @@ void add_strict_option(CLI::App& command, SceneInput& input) {
 void add_scene_input(CLI::App& command, SceneInput& input) {
   command
       .add_option("SCENE", input.path,
-                  "Scene file (*.json) or bare mesh (" + mesh_format_names() + "); - is standard input")
+                  "Scene file (*.json), glTF (*.gltf, *.glb) or bare mesh (" + mesh_format_names() +
+                      "); - is standard input")
       ->required();
   add_strict_option(command, input);
+  command
+      .add_option("--light-radius", input.light_radius,
+                  "Radius of point and spot lights of glTF, scene units")
+      ->check(CLI::NonNegativeNumber)
+      ->group("General");
+  command.add_option("--sun-angle", input.sun_angle, "Angle of directional lights of glTF, degrees")
+      ->check(CLI::Range(0.0, 179.0))
+      ->group("General");
 }
 
 std::string read_standard_input() {
@@ -98,7 +107,8 @@ bool is_large(const std::filesystem::path& path) {
 
 Scene load(const SceneInput& input) {
   const LoadedScene loaded = [&] {
-    const SceneOptions options = {.strict = input.strict};
+    const SceneOptions options = {
+        .strict = input.strict, .light_radius = input.light_radius, .sun_angle = input.sun_angle};
     if (is_standard(input.path))
       return parse_scene_or_mesh(read_standard_input(), "", kStandardInput, options);
     ProgressLine reading("reading " + input.path.string());

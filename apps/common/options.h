@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,9 +38,11 @@ class ThreadLimit {
 struct SceneInput {
   std::filesystem::path path;
   bool strict = false;  ///< unknown keys are errors
+  /// Of lights in glTF files.
+  std::optional<double> light_radius{}, sun_angle{};
 };
 void add_strict_option(CLI::App& command, SceneInput& input);
-/// SCENE as a positional argument, and --strict.
+/// SCENE as a positional argument, --strict, --light-radius and --sun-angle.
 void add_scene_input(CLI::App& command, SceneInput& input);
 inline constexpr const char* kStandardInput = "standard input";
 /// All of it. Throws SceneError where it is empty.

@@ -3,73 +3,11 @@
 #include "apps/python/long_call.h"
 #include "apps/python/python_lights.h"
 #include "apps/python/python_options.h"
+#include "apps/python/python_surfaces.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::python {
 namespace {
-
-constexpr std::uint32_t kGone = 0xFFFFFFFFu;
-
-/// For each triangle that an object was given its face, kGone where it was left out.
-std::vector<std::uint32_t> faces_by_triangle(const TriangleMesh& mesh) {
-  std::vector<std::uint32_t> faces(mesh.triangles().size() + mesh.report().degenerate.size(), kGone);
-  for (std::size_t f = 0; f < mesh.triangles().size(); ++f)
-    faces[mesh.source_triangles()[f]] = static_cast<std::uint32_t>(f);
-  return faces;
-}
-
-/// The surfaces on which the points lie, in the library's terms.
-struct Surfaces {
-  std::vector<std::int32_t> objects;
-  std::vector<std::uint32_t> faces;
-};
-
-std::vector<std::int32_t> objects_of(const PythonScene& scene, const py::object& objects,
-                                     const Shape& shape) {
-  std::vector<std::int32_t> out;
-  const auto count = static_cast<std::int64_t>(scene.scene().objects.size());
-  for (const std::int64_t object : integers_of(objects, "objects", shape)) {
-    if (object < -1 || object >= count)
-      throw py::value_error(place_of("objects", shape, out.size()) + " is " + std::to_string(object) +
-                            ", but the scene has " + std::to_string(count) +
-                            " objects, numbered from 0; -1 is no point");
-    out.push_back(static_cast<std::int32_t>(object));
-  }
-  return out;
-}
-
-Surfaces surfaces_of(const PythonScene& scene, const py::object& objects, const py::object& faces,
-                     const Shape& shape) {
-  if (objects.is_none() && faces.is_none()) return {};
-  if (objects.is_none() && scene.scene().objects.size() != 1)
-    throw py::value_error("faces are given without objects, and the scene has " +
-                          std::to_string(scene.scene().objects.size()) +
-                          " objects; say on which one they are");
-  Surfaces out;
-  out.objects = objects_of(scene, objects.is_none() ? py::int_(0) : objects, shape);
-  if (faces.is_none()) return out;
-  std::vector<std::vector<std::uint32_t>> known(scene.scene().objects.size());
-  for (const std::int64_t triangle : integers_of(faces, "faces", shape)) {
-    const std::size_t i = out.faces.size();
-    if (out.objects[i] < 0) {
-      out.faces.push_back(0);
-      continue;
-    }
-    const auto object = static_cast<std::size_t>(out.objects[i]);
-    if (known[object].empty()) known[object] = faces_by_triangle(scene.scene().objects[object].mesh);
-    const auto count = static_cast<std::int64_t>(known[object].size());
-    if (triangle < 0 || triangle >= count)
-      throw py::value_error(place_of("faces", shape, i) + " is " + std::to_string(triangle) +
-                            ", but object " + std::to_string(object) + " has " + std::to_string(count) +
-                            " triangles, numbered from 0");
-    out.faces.push_back(known[object][static_cast<std::size_t>(triangle)]);
-    if (out.faces.back() == kGone)
-      throw py::value_error(place_of("faces", shape, i) + " is triangle " + std::to_string(triangle) +
-                            " of object " + std::to_string(object) +
-                            ", which has no three distinct corners; nothing lies on it");
-  }
-  return out;
-}
 
 py::dict stats_of(const std::string& method, const OptionValues& options, const MethodResult& result) {
   py::dict stats;
@@ -82,30 +20,46 @@ py::dict stats_of(const std::string& method, const OptionValues& options, const 
   return stats;
 }
 
+std::vector<LightShape> lights_of(const Scene& scene, const py::object& light, bool several) {
+  if (!several) return {light_of(scene, light)};
+  std::vector<LightShape> lights;
+  for (const py::handle& each : light)
+    lights.push_back(light_of(scene, py::reinterpret_borrow<py::object>(each)));
+  return lights;
+}
+
+/// The arrays of all results, one after the other. That of a lone result is not copied.
+template <class T>
+std::vector<T> joined(std::vector<MethodResult>& results, std::vector<T> MethodResult::*part) {
+  if (results.size() == 1) return std::move(results[0].*part);
+  std::vector<T> all;
+  for (MethodResult& result : results) {
+    all.insert(all.end(), (result.*part).begin(), (result.*part).end());
+    result.*part = {};
+  }
+  return all;
+}
+
 py::object visibility_of(PythonScene& scene, const py::object& points, const py::object& light,
                          const py::object& normals, const py::object& method, const py::object& max_error,
                          bool region, bool stats, const py::object& objects, const py::object& faces,
                          const py::object& progress, const py::kwargs& options) {
   const PointArray at = points_of(points, "points");
   PointArray up;
-  if (!normals.is_none()) {
-    up = points_of(normals, "normals");
-    if (up.shape != at.shape)
-      throw py::value_error("normals have shape " + text_of(shape_of(up.array)) + ", but points have " +
-                            text_of(shape_of(at.array)) + "; give one for each point");
-  }
-  const Surfaces on = surfaces_of(scene, objects, faces, at.shape);
+  if (!normals.is_none()) up = normals_of(normals, at);
+  const Surfaces on = surfaces_of(scene.scene(), objects, faces, at.shape);
   const MethodChoice choice = choice_of(method, max_error, options);
-  const LightShape shape = light_of(scene.scene(), light);
+  const bool several = py::isinstance<py::list>(light);
+  const std::vector<LightShape> lights = lights_of(scene.scene(), light, several);
   const auto casters = scene.casters();
   const Receivers receivers{
       .points = at.points, .normals = up.points, .objects = on.objects, .faces = on.faces};
   if (region && !method_named(choice.method).certifies)
     throw py::value_error("method '" + choice.method + "' certifies nothing; leave region out");
-  MethodResult result;
+  std::vector<MethodResult> results;
   try {
-    result = long_call(progress, [&](const Progress& report) {
-      return visibility(*casters, shape, receivers,
+    results = long_call(progress, [&](const Progress& report) {
+      return visibility(*casters, std::span(lights), receivers,
                         {.method = choice.method, .options = choice.options, .progress = report});
     });
   } catch (const UsageError&) {  // it tells a receiver by its number: say it as NumPy does
@@ -113,19 +67,23 @@ py::object visibility_of(PythonScene& scene, const py::object& points, const py:
     require_finite(up, "normals");
     throw;
   }
-  py::object seen = owned<float>(std::move(result.visibility), at.shape);
+  Shape shape = at.shape;
+  if (several) shape.insert(shape.begin(), static_cast<py::ssize_t>(lights.size()));
+  py::object seen = owned<float>(joined(results, &MethodResult::visibility), shape);
   if (!region && !stats) return seen;
-  py::list out;
+  py::list out, said;
   out.append(seen);
-  if (region) out.append(owned<std::int8_t>(std::move(result.region), at.shape));
-  if (stats) out.append(stats_of(choice.method, choice.options, result));
+  if (region) out.append(owned<std::int8_t>(joined(results, &MethodResult::region), shape));
+  for (const MethodResult& result : results) said.append(stats_of(choice.method, choice.options, result));
+  if (stats) out.append(several ? py::object(said) : py::object(said[0]));
   return py::tuple(out);
 }
 
 constexpr const char* kHelp = R"(The fraction of a light that each point sees.
 
 points: (..., 3) real, scene units; C-ordered float64 is not copied, and must not be changed meanwhile.
-light: a DiskLight, DistantLight or RectangleLight, or the number or name of one of scene.lights.
+light: a DiskLight, DistantLight or RectangleLight, or the number or name of one of scene.lights; or a list of lights: results then
+have one more axis, the first, and stats are a list.
 normals: as points, unit vectors: what lies below a point's tangent plane is hidden from it. Without normals nothing is.
 method: 'silhouette' (exact areas, the usual), 'auto', 'reference' and 'rays' (samples=256, seed=0), 'hard', 'none'.
 max_error: RMSE over the penumbra that may be made; the method is then 'auto', which takes the cheapest one that keeps it.

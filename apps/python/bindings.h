@@ -12,6 +12,7 @@ void bind_lights(py::module_& module);
 using SceneClass = py::class_<PythonScene, std::shared_ptr<PythonScene>>;
 SceneClass bind_scene(py::module_& module);
 void bind_visibility(SceneClass& scene);
+void bind_sun(py::module_& module, SceneClass& scene);
 void bind_solids(py::module_& module);
 void bind_silhouettes(py::module_& module);
 void bind_render(py::module_& module);

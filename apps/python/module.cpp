@@ -41,6 +41,7 @@ PYBIND11_MODULE(_penumbra, module) {
   bind_lights(module);
   SceneClass scene = bind_scene(module);
   bind_visibility(scene);
+  bind_sun(module, scene);
   bind_solids(module);
   bind_silhouettes(module);
   bind_render(module);

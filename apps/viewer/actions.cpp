@@ -2,37 +2,28 @@
 
 #include <imgui.h>
 
-#include <cstdio>
-
 #include "apps/viewer/state/state_file.h"
+#include "apps/viewer/work/fresh_name.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::viewer {
 namespace {
 
-// STEM-001END, the first number for which there is no file yet.
-std::filesystem::path fresh_name(const std::filesystem::path& folder, const State& state,
-                                 const std::string& end) {
-  const std::string stem = state.path.stem().string();
-  for (int number = 1;; ++number) {
-    char digits[16];
-    std::snprintf(digits, sizeof digits, "-%03d", number);
-    const std::filesystem::path path = folder / (stem + digits + end);
-    if (!std::filesystem::exists(path)) return path;
-  }
+std::filesystem::path fresh_name(const ActionInput& input, const std::string& end) {
+  return input.folder / (fresh_stem(input.folder, input.state, {end}) + end);
 }
 
 std::string save_picture(const ActionInput& input) {
   if (!input.frame || !input.settled || input.frame->sides.empty())
     return "the picture is not final yet; try again in a moment";
-  const std::filesystem::path path = fresh_name(input.folder, input.state, ".png");
+  const std::filesystem::path path = fresh_name(input, ".png");
   write_png(path, input.frame->sides.front().result->image,
             Display{input.state.exposure, input.frame->model->picture.background});
   return "saved " + path.string();
 }
 
 std::filesystem::path save_state_file(const ActionInput& input) {
-  const std::filesystem::path path = fresh_name(input.folder, input.state, ".json");
+  const std::filesystem::path path = fresh_name(input, ".json");
   save_state(path, input.state);
   return path;
 }

@@ -56,9 +56,10 @@ int Viewer::run() {
 }
 
 void Viewer::draw_frame(const std::shared_ptr<const Frame>& frame) {
-  canvas_.update(state(), frame);
+  canvas_.show(frame);
   window_.begin_frame();
-  draw();
+  draw();  // asks for the next picture, which is made while this one is drawn
+  canvas_.upload(state());
   window_.draw_frame();
   drawn_ = std::chrono::steady_clock::now();
   ++frames_;
@@ -79,7 +80,7 @@ void Viewer::wait() {
   window_.wait(wishes_.restless()             ? 0.03
                : window_.minimised()          ? 0.5
                : !options_.screenshot.empty() ? 0.03
-               : !canvas_.activity().empty()  ? 0.2  // it tells how far it is
+               : !activity().empty()          ? 0.2  // it tells how far it is
                                               : -1.0);
   frames_to_draw_ = 2;
 }
@@ -126,6 +127,11 @@ std::string Viewer::message() const {
   return message_;
 }
 
+std::string Viewer::activity() const {
+  const std::string solids = canvas_.activity(), files = exports_.activity();
+  return solids + (solids.empty() || files.empty() ? "" : "; ") + files;
+}
+
 void Viewer::draw_panel_and_status() {
   if (show_panel_) {
     const PanelInput input{.frame = canvas_.frame(),
@@ -140,10 +146,9 @@ void Viewer::draw_panel_and_status() {
     if (const auto command = draw_panel(state(), input, places_)) obey(*command);
   }
   if (options_.plain) return;
-  std::string activity = picture_in_words(canvas_.frame(), settled());
-  if (const std::string more = canvas_.activity(); !more.empty()) activity = more + "; " + activity;
+  const std::string more = activity(), picture = picture_in_words(canvas_.frame(), settled());
   draw_status_line({.message = message(),
-                    .activity = activity,
+                    .activity = more.empty() ? picture : more + "; " + picture,
                     .y = state().left.height,
                     .width = static_cast<int>(ImGui::GetIO().DisplaySize.x),
                     .height = window_.look().status_height()});
@@ -162,6 +167,7 @@ void Viewer::update_status(bool holding) {
                   .frame = canvas_.frame(),
                   .places = places_,
                   .message = message(),
+                  .activity = activity(),
                   .minimised = window_.minimised(),
                   .per_second = costs_.per_second(),
                   .unsaved = document_.unsaved(),

@@ -41,6 +41,8 @@ class Viewer {
   void take_screenshot_when_due();
   bool settled() const { return wishes_.settled(canvas_.frame()); }
   std::string message() const;
+  /// What is being made beside the picture, in words; empty where nothing is.
+  std::string activity() const;
   State& state() { return document_.state(); }
   const State& state() const { return document_.state(); }
 

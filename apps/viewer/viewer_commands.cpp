@@ -59,11 +59,14 @@ void Viewer::obey_file(Command command) {
     case Command::kPreviousFile:
       open_neighbor(-1);
       break;
-    case Command::kExportVolumes:
-      message_ = exports_.start(export_volumes, options_.output, state());
+    case Command::kExportSolids:
+      message_ = exports_.start(kSolidExport, options_.output, state());
+      break;
+    case Command::kExportCells:
+      message_ = exports_.start(kCellExport, options_.output, state());
       break;
     case Command::kExportSequence:
-      message_ = exports_.start(export_sequence, options_.output, state());
+      message_ = exports_.start(kSequenceExport, options_.output, state());
       break;
     default: {
       const ActionResult result = perform(
@@ -75,7 +78,7 @@ void Viewer::obey_file(Command command) {
   }
 }
 
-// Ends what is nearest: a drag, a menu, the help; then the program.
+// Ends what is nearest: a drag, a menu, the help, an export; then the program.
 void Viewer::escape() {
   if (pointer_.dragging())
     pointer_.cancel(state());
@@ -83,6 +86,8 @@ void Viewer::escape() {
     close_menus_ = true;
   else if (show_help_)
     show_help_ = false;
+  else if (exports_.busy())
+    exports_.cancel();
   else
     want_to_leave();
 }

@@ -210,6 +210,7 @@ PolygonSoup SoupBuilder<Cursor>::take() && {
 template <class Cursor>
 void SoupBuilder<Cursor>::settle_normals() {
   std::vector<std::uint32_t>& of_corners = soup_.corner_normals;
+  if (vertices_have_normals_ && soup_.corners.empty()) return;  // points without faces keep theirs
   if (vertices_have_normals_) of_corners = soup_.corners;
   if (!of_corners.empty()) of_corners.resize(soup_.corners.size(), PolygonSoup::kNoNormal);
   const auto is_normal = [&](std::uint32_t i) {

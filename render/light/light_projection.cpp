@@ -21,9 +21,18 @@ Vec3 LightProjection::direction(const Vec3& world) const {
 
 /// The third coefficient is the height of the light's center above the plane, over the origin's depth.
 Vec3 LightProjection::plane(const Vec3& normal, const Vec3& point) const {
-  const double up =
-      nearness_ > 0.0 ? nearness_ * glm::dot(normal, center_ - point) : -glm::dot(normal, axes_.w);
+  const double up = nearness_ > 0.0 ? nearness_ * glm::dot(normal, center_ - point)
+                                    : tilt_.x * glm::dot(normal, axes_.u) +
+                                          tilt_.y * glm::dot(normal, axes_.v) - glm::dot(normal, axes_.w);
   return {glm::dot(normal, axes_.u), glm::dot(normal, axes_.v), up};
+}
+
+LightProjection LightProjection::seen_from(const glm::dvec2& d) const {
+  LightProjection out = *this;
+  const glm::dvec2 shift = spread_ * d;
+  out.tilt_ += shift;
+  if (nearness_ > 0.0) out.center_ += (shift.x * axes_.u + shift.y * axes_.v) / nearness_;
+  return out;
 }
 
 }  // namespace penumbra

@@ -45,6 +45,9 @@ class LightProjection {
   /// The plane through a point with a unit normal, as the coefficients of (q, h): normal · (p - point) is this ·
   /// ((q, h) of p - (q, h) of point) · weight of p.
   Vec3 plane(const Vec3& normal, const Vec3& point) const;
+  /// The same with another point of the light for its center, `d` in units of its half extents. Heights stay, and q becomes
+  /// q - spread · d · h.
+  LightProjection seen_from(const glm::dvec2& d) const;
 
  private:
   LightFrame axes_;

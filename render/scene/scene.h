@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,7 +67,7 @@ struct Scene {
   std::vector<SceneObject> objects;
   PictureSettings picture{};
   std::vector<GlassBody> glass{};
-  /// The file as read, JSON, keys beginning with `x-` included; empty for a scene made by hand.
+  /// The file as read, JSON, keys beginning with `x-` included; empty for a scene made by hand, {} for one of glTF.
   std::string document;
   /// What was read for it: the scene's file, its meshes, their files of materials.
   std::vector<std::filesystem::path> files{};
@@ -83,6 +84,9 @@ struct Scene {
 struct SceneOptions {
   /// Unknown keys are errors, not warnings.
   bool strict = false;
+  /// Of lights in glTF files, which have no size: the radius of points and spots, scene units, and the angle of directional ones, degrees. Without, `extras` of
+  /// the file say it.
+  std::optional<double> light_radius{}, sun_angle{};
 };
 
 struct LoadedScene {
@@ -91,7 +95,7 @@ struct LoadedScene {
   std::vector<std::string> warnings;
 };
 
-/// Reads a scene file (*.json) or makes a scene of a bare mesh: the mesh on a floor that does not cast, with
+/// Reads a scene file (*.json) or a glTF file (*.gltf, *.glb), or makes a scene of a bare mesh: the mesh on a floor that does not cast, with
 /// a light and a camera that suit its bounds. Relative mesh paths start at the scene file's folder. Throws
 /// SceneError or MeshError.
 LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options = {});
@@ -101,7 +105,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& op
 LoadedScene parse_scene(std::string_view text, const std::filesystem::path& folder, const std::string& name,
                         const SceneOptions& options = {});
 
-/// The same from the bytes of either: a scene file where the first character is a brace, else a mesh file.
+/// The same from the bytes of any: a scene file where the first character is a brace, a binary glTF file where they begin as one does, else
+/// a mesh file.
 LoadedScene parse_scene_or_mesh(std::string_view bytes, const std::filesystem::path& folder,
                                 const std::string& name, const SceneOptions& options = {});
 

@@ -1,14 +1,17 @@
 // load_scene and parse_scene: from a file or its text to a JSON document or a bare mesh.
 #include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <span>
 #include <utility>
 
+#include "mesh/io/formats.h"
+#include "mesh/io/read_file.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/io/polygon_soup.h"
 #include "penumbra/render/scene/scene.h"
 #include "render/scene/default_scene.h"
+#include "render/scene/gltf/gltf_file.h"
+#include "render/scene/gltf/gltf_scene.h"
 #include "render/scene/scene_json.h"
 #include "render/scene/scene_mesh.h"
 
@@ -57,10 +60,11 @@ nlohmann::json parse_document(std::string_view text, const std::string& name) {
 }
 
 bool is_scene_file(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".json";
+  return detail::lower_extension(path) == ".json";
+}
+bool is_gltf(const std::filesystem::path& path) {
+  const std::string extension = detail::lower_extension(path);
+  return extension == ".gltf" || extension == ".glb";
 }
 
 /// Colors of materials stand in the mesh's own file: the scene's document must not replace them.
@@ -94,18 +98,23 @@ LoadedScene scene_of(PolygonSoup soup, const std::string& name) {
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path, const SceneOptions& options) {
-  LoadedScene loaded = is_scene_file(path)
-                           ? parse_scene(read_scene_text(path), path.parent_path(), path.string(), options)
-                           : scene_of(read_polygon_soup(path), path.string());
+  LoadedScene loaded = [&] {
+    if (is_scene_file(path))
+      return parse_scene(read_scene_text(path), path.parent_path(), path.string(), options);
+    if (is_gltf(path))
+      return detail::read_gltf(detail::read_bytes(path), path.parent_path(), path.string(), options);
+    return scene_of(read_polygon_soup(path), path.string());
+  }();
   loaded.scene.files.insert(loaded.scene.files.begin(), path);
   return loaded;
 }
 
 LoadedScene parse_scene_or_mesh(std::string_view bytes, const std::filesystem::path& folder,
                                 const std::string& name, const SceneOptions& options) {
+  const auto raw = std::as_bytes(std::span(bytes));
+  if (detail::begins_like_glb(raw)) return detail::read_gltf(raw, folder, name, options);
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first == bytes.npos || bytes[first] != '{')
-    return scene_of(parse_polygon_soup(std::as_bytes(std::span(bytes)), name), name);
+  if (first == bytes.npos || bytes[first] != '{') return scene_of(parse_polygon_soup(raw, name), name);
   if (bytes.size() > kMaxSceneBytes)
     throw SceneError(name + ": is larger than 16 MiB, no scene file; keep large data in mesh files");
   return parse_scene(bytes, folder, name, options);

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "mesh/io/formats.h"
+#include "mesh/io/npy.h"
 #include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/solids/light_field.h"
@@ -19,19 +20,9 @@ void write_values(std::ostream& out, const LightField& field) {
             static_cast<std::streamsize>(field.seen.size() * sizeof(float)));
 }
 
-/// NumPy's format 1.0: the header ends at a multiple of 64 bytes.
 void write_npy(std::ostream& out, const LightField& field) {
-  std::ostringstream text;
-  text << "{'descr': '<f4', 'fortran_order': False, 'shape': (" << field.counts[2] << ", " << field.counts[1]
-       << ", " << field.counts[0] << "), }";
-  std::string header = text.str();
-  constexpr std::size_t kBefore = 10;
-  while ((kBefore + header.size() + 1) % 64 != 0) header += ' ';
-  header += '\n';
-  out.write("\x93NUMPY\x01\x00", 8);
-  const auto length = static_cast<std::uint16_t>(header.size());
-  out.write(reinterpret_cast<const char*>(&length), 2);
-  out << header;
+  const auto count = [&](std::size_t k) { return static_cast<std::size_t>(field.counts[k]); };
+  detail::write_npy_header(out, {count(2), count(1), count(0)});
   write_values(out, field);
 }
 

@@ -116,6 +116,9 @@ void bench_pops(Record& record, const SceneNames& scenes);
 /// occlusion_bench.cpp: prefilters; frames by the light's radius and by the number of slices.
 void bench_occlusion_textures(Record& record, const SceneNames&);
 
+/// sun_bench.cpp: a year of hourly suns on 10,000 receivers of a city block, against 64 rays a receiver.
+void bench_sun(Record& record, const SceneNames&);
+
 /// price_bench.cpp: what exact classification costs, and what plain arithmetic gets wrong.
 void bench_price(Record& record, const SceneNames&);
 

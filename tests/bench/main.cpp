@@ -77,6 +77,7 @@ const std::vector<Part>& parts() {
       {"solids-judge", bench_solids_judge, solid_scenes()},
       {"fields", bench_fields, {"bunny-small", "bunny-medium", "bunny-large", "bunny-sun"}},
       {"judge", bench_judge, {}},
+      {"sun", bench_sun, {}},
       {"growth", bench_growth, {}},
       {"occlusion", bench_occlusion_textures, {}}};
   return all;

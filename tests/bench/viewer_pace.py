@@ -1,10 +1,13 @@
 """How many pictures a second the viewer draws while its light is dragged, as it counts them itself.
 
-viewer_pace.py VIEWER SCENE [SIZE [SECONDS]]: starts the viewer on a display of its own (Xvfb), drags the light's center to and
-fro (xdotool), and reads --status.
+viewer_pace.py VIEWER [SCENE...] [--size WxH] [--seconds S] [--write FILE --commit C]: for each scene starts the viewer on a
+display of its own (Xvfb), drags the light's center to and fro (xdotool), and reads --status. Prints pictures a second, which part of
+the time they had full size, and what a picture took of the processors: the viewer's share does not depend on what else runs.
 """
 
+import argparse
 import collections
+import datetime
 import json
 import math
 import os
@@ -14,6 +17,9 @@ import subprocess
 import sys
 import tempfile
 import time
+
+SCENES = ["cube-medium", "bunny-medium", "armadillo-medium"]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def status(path):
@@ -42,8 +48,37 @@ def start_display():
         return server, ":" + pipe.readline().strip()
 
 
-def drag(path, environment, seconds):
-    """Pictures a second and reductions, sampled after the first second."""
+def processor_ms(process):
+    """Of all threads, user and system."""
+    fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) * 1000.0 / os.sysconf("SC_CLK_TCK")
+
+
+class Samples:
+    """What is read while the light is dragged."""
+
+    def __init__(self):
+        self.rates, self.milliseconds, self.reductions = [], [], collections.Counter()
+        self.first, self.last = None, None
+
+    def add(self, frame, *processes):
+        self.rates.append(frame["per_second"])
+        self.milliseconds.append(frame["milliseconds"])
+        self.reductions[frame["reduction"]] += 1
+        self.last = (frame["number"], *map(processor_ms, processes))
+        self.first = self.first or self.last
+
+    def figures(self):
+        pictures, viewer, server = (b - a for a, b in zip(self.first, self.last))
+        return {"pictures a second": ("1/s", self.rates),
+                "a picture": ("ms", self.milliseconds),
+                "full size": ("1", [self.reductions[1] / sum(self.reductions.values())]),
+                "processor": ("ms a picture, all threads", [viewer / max(pictures, 1)]),
+                "processor of the display": ("ms a picture", [server / max(pictures, 1)])}
+
+
+def drag(path, environment, seconds, window, server):
+    """Samples after the first second and a half."""
     def tool(*words):
         subprocess.run(["xdotool", *map(str, words)], env=environment, check=True)
 
@@ -51,25 +86,21 @@ def drag(path, environment, seconds):
     tool("mousemove", x, y, "mousedown", 1)
     until(path, "the drag's start", lambda s: s.get("holding"))
     mouse = subprocess.Popen(["xdotool", "-"], env=environment, stdin=subprocess.PIPE, text=True)
-    start, rates, reductions = time.monotonic(), [], collections.Counter()
+    start, samples = time.monotonic(), Samples()
     while (passed := time.monotonic() - start) < seconds:
         mouse.stdin.write(f"mousemove {x + round(60 * math.sin(2 * passed))} {y + round(20 * math.sin(3 * passed))}\n")
         mouse.stdin.flush()
         time.sleep(0.008)
         frame = status(path).get("frame")
         if frame and passed > 1.5:
-            rates.append(frame["per_second"])
-            reductions[frame["reduction"]] += 1
+            samples.add(frame, window, server)
     mouse.stdin.close()
     mouse.wait()
     tool("mouseup", 1)
-    return rates, reductions
+    return samples.figures()
 
 
-def main():
-    viewer, scene = sys.argv[1:3]
-    size = sys.argv[3] if len(sys.argv) > 3 else "960x600"
-    seconds = float(sys.argv[4]) if len(sys.argv) > 4 else 8.0
+def measure(viewer, scene, size, seconds):
     server, display = start_display()
     environment = os.environ | {"DISPLAY": display}
     try:
@@ -79,16 +110,59 @@ def main():
                                       env=environment)
             try:
                 until(path, "the first picture", lambda s: s.get("settled"))
-                rates, reductions = drag(path, environment, seconds)
+                return drag(path, environment, seconds, window, server)
             finally:
                 window.terminate()
                 window.wait()
     finally:
         server.terminate()
         server.wait()
-    shares = {f"1/{k}": round(n / sum(reductions.values()), 2) for k, n in sorted(reductions.items())}
-    print(f"{scene} {size}: {statistics.median(rates)} pictures a second (least {min(rates)}, most {max(rates)}); "
-          f"share of the time by reduction: {shares}")
+
+
+def spread(values):
+    """As tests/bench/record.cpp has it."""
+    values = sorted(values)
+    n = len(values)
+    low, median, high = (float(f"{v:.5g}") for v in (values[n // 4], values[n // 2], values[n - 1 - n // 4]))
+    return {"unit": "", "median": median, "low": low, "high": high, "runs": n}
+
+
+def write(file, commit, figures):
+    """Replaces this part of a file of figures, all else stays as it is written there: one figure a line."""
+    record = json.loads(file.read_text())
+    record["parts"]["viewer"] = {"commit": commit, "date": datetime.date.today().isoformat(), "figures": figures}
+    lines = []
+    for name, part in sorted(record["parts"].items()):
+        each = ",\n ".join(f"{json.dumps(key)}: {dense(value)}" for key, value in sorted(part["figures"].items()))
+        lines.append(f'{json.dumps(name)}: {{"commit": {json.dumps(part["commit"])}, "date": {json.dumps(part["date"])}, '
+                     f'"figures": {{\n {each}}}}}')
+    file.write_text(f'{{\n"machine": {dense(record["machine"])},\n"renderer": {json.dumps(record["renderer"])},\n'
+                    '"parts": {\n' + ",\n".join(lines) + "\n}\n}\n")
+
+
+def dense(value):
+    return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("viewer")
+    parser.add_argument("scenes", nargs="*", default=SCENES, help="names of data/scenes, or files")
+    parser.add_argument("--size", default="960x600")
+    parser.add_argument("--seconds", type=float, default=8.0)
+    parser.add_argument("--write", type=pathlib.Path)
+    parser.add_argument("--commit", default="unknown")
+    arguments = parser.parse_args()
+    record = {}
+    for scene in arguments.scenes:
+        file = ROOT / "data/scenes" / (scene + ".json")
+        figures = measure(arguments.viewer, file if file.exists() else scene, arguments.size, arguments.seconds)
+        for name, (unit, values) in figures.items():
+            key = f"{scene}/{arguments.size}/{name}"
+            record[key] = spread(values) | {"unit": unit}
+            print(f"  {key:56} {record[key]['median']:10.5g} {unit}", flush=True)
+    if arguments.write:
+        write(arguments.write, arguments.commit, record)
 
 
 if __name__ == "__main__":

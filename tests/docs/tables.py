@@ -5,61 +5,15 @@ usage: tables.py [--check]
 With --check nothing is written; the exit code is 1 where a table differs. Times get one table a machine; errors and counts,
 which hardly depend on it, are those of the first machine that has them.
 """
-import json
 import re
 import sys
 
 from documents import ROOT, documents
+from figures import each_machine, first_machine, parts_named, scenes_of
+from moving_light_tables import kept_frames, pops, viewer_pace
 from table_text import error, markdown, number
 
 MARK = re.compile(r"<!-- table: ([\w-]+) -->\n(.*?)<!-- end -->", re.DOTALL)
-
-
-class Part:
-    """The figures of one part of one machine's benchmarks."""
-
-    def __init__(self, machine, part):
-        self.machine, self.commit, self.date, self.figures = machine, part["commit"], part["date"], part["figures"]
-
-    def median(self, name):
-        figure = self.figures.get(name)
-        return None if figure is None else figure["median"]
-
-    def names_before(self, suffix):
-        """What comes before the suffix in the names of figures, in the order of the numbers in it."""
-        found = [name[: -len(suffix)] for name in self.figures if name.endswith(suffix)]
-        return sorted(found, key=lambda name: [(0, float(word), "") if re.fullmatch(r"[\d.]+", word) else (1, 0.0, word)
-                                               for word in re.split(r"[/ ]", name)])
-
-    def origin(self):
-        m = self.machine
-        return f"{m['processor']}, {m['cores']} cores, {m['instruction_set']}; commit {self.commit}, {self.date}."
-
-
-def parts_named(name):
-    found = []
-    for path in sorted((ROOT / "data/benchmarks").glob("*.json")):
-        record = json.loads(path.read_text())
-        if name in record["parts"]:
-            found.append(Part(record["machine"], record["parts"][name]))
-    return found
-
-
-def each_machine(name, table):
-    """One table a machine, each with its origin; nothing where no machine has the part."""
-    return "\n".join(f"{part.origin()}\n\n{table(part)}" for part in parts_named(name))
-
-
-def first_machine(name, table):
-    parts = parts_named(name)
-    return f"{parts[0].origin()}\n\n{table(parts[0])}" if parts else ""
-
-
-def scenes_of(part, suffix):
-    """Scenes by their casters, in the order of the benchmark's sizes."""
-    sizes = {"small": 0, "medium": 1, "large": 2}
-    names = {name[: -len(suffix)] for name in part.figures if name.endswith(suffix)}
-    return sorted(names, key=lambda name: (name.rpartition("-")[0] or name, sizes.get(name.rpartition("-")[2], 3), name))
 
 
 # The tables. Each takes one part and returns markdown.
@@ -102,16 +56,6 @@ def frames(part):
     rows = [[scene] + [number(part.median(f"{scene}/{method}/frame")) for method in methods.values()]
             for scene in scenes_of(part, "/silhouette/frame")]
     return markdown(["scene", *methods], rows)
-
-
-def kept_frames(part):
-    rows = []
-    for scene in scenes_of(part, "/silhouette/kept/render"):
-        ratio = part.figures[f"{scene}/silhouette/kept : anew"]
-        rows.append([scene, number(part.median(f"{scene}/silhouette/anew/render")),
-                     number(part.median(f"{scene}/silhouette/kept/render")),
-                     f"{ratio['median']:.2f} ({ratio['low']:.2f} to {ratio['high']:.2f})"])
-    return markdown(["scene", "made anew, ms", "kept, ms", "kept : anew"], rows)
 
 
 def silhouette_errors(part):
@@ -292,6 +236,8 @@ TABLES = {
     "judge": lambda: first_machine("judge", judged),
     "frames": lambda: each_machine("accuracy", frames),
     "kept-frames": lambda: each_machine("frames", kept_frames),
+    "pops": lambda: first_machine("pops", pops),
+    "viewer-pace": lambda: each_machine("viewer", viewer_pace),
     "silhouette-time": lambda: each_machine("silhouette", silhouette_times),
     "growth": lambda: each_machine("growth", growth),
     "radii": lambda: each_machine("growth", radii),

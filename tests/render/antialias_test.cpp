@@ -5,6 +5,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
+#include "tests/render/draft_options.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {
@@ -131,7 +132,7 @@ TEST(Antialias, ChangesNoMeasuredChannelOfAnyMethod) {
   Scene scene = testing::data_scene("torus-medium");
   for (const MethodInfo& method : methods()) {
     RenderOptions options = options_with(1, method.name, 40, 30);
-    options.options = {{"samples", std::uint64_t{16}}};
+    options.options = testing::drafts_of(method.name);
     const auto plain = render(scene, options).image.channels;
     Scene adorned = scene;
     adorned.picture.ambient = Vec3(0.2);

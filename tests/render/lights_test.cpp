@@ -3,6 +3,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/renderer.h"
+#include "tests/render/draft_options.h"
 #include "tests/render/render_support.h"
 
 namespace penumbra {
@@ -13,9 +14,8 @@ RenderOptions by(const std::string& method) {
   options.method = method;
   options.width = 120;
   options.height = 90;
-  options.options = {{"samples", std::uint64_t{16}},
-                     {"dbuffer-size", std::uint64_t{256}},
-                     {"texture-size", std::uint64_t{128}}};
+  options.options = {{"dbuffer-size", std::uint64_t{256}}, {"texture-size", std::uint64_t{128}}};
+  options.options.merge(testing::drafts_of(method));
   return options;
 }
 

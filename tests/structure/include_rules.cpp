@@ -24,7 +24,7 @@ std::string drawing_methods() {
 // Folders of render/ that every method may use: the last are the edges that receivers see. Each other folder of render/ is
 // a method.
 const std::string kShared =
-    "(?:support|light|scene|receivers|rays|gl|image|shading|plan|silhouette/(?:edges|merge|collect))/";
+    "(?:support|light|scene|receivers|rays|center_view|gl|image|shading|plan|silhouette/(?:edges|merge|collect))/";
 const std::string kMethod = "render/(?!" + kShared + ")(\\w+)/";
 // What draws; all other folders of render/ are of penumbra::visibility.
 const std::string kDraws = "(?:gl|shading|image|" + drawing_methods() + ")/";
@@ -91,13 +91,14 @@ const std::vector<Rule>& rules() {
       {"Embree's part of the ray scene", "render/rays/", kAlone, "render/rays/ray_scene_impl\\.",
        {"render/silhouette/passes.cpp", "render/rays/ray_scene_impl.h"}},
       {"OpenVDB", "render/solids/vdb/", kAlone, "<openvdb/", {"render/solids/write_vdb.cpp", "openvdb/openvdb.h", false}},
+      {"tinygltf", "render/scene/gltf/", kAlone, "<tiny_gltf", {"render/scene/scene_load.cpp", "tiny_gltf.h", false}},
       {"OpenGL", "render/gl/", kAlone, "<(GL|EGL|KHR)/", {"render/d_buffer/d_buffer.cpp", "GL/glcorearb.h", false}},
       {"GLFW", "apps/viewer/", kAlone, "<GLFW/", {"render/gl/context_egl.cpp", "GLFW/glfw3.h", false}},
       {"Dear ImGui", "apps/viewer/", kAlone, "<imgui", {"apps/common/options.h", "imgui.h", false}},
       {"OpenEXR", "render/image/", kAlone, "<OpenEXR/", {"apps/common/outputs.cpp", "OpenEXR/ImfHeader.h", false}},
       {"CLI11", "(apps|tests)/", kAlone, "<CLI/", {"render/renderer.h", "CLI/CLI.hpp", false}},
       {"pybind11", "apps/python/", kAlone, "<pybind11/", {"apps/common/options.cpp", "pybind11/pybind11.h", false}},
-      {"JSON", "(apps/|tests/|render/scene/(\\w+\\.cpp|scene_json\\.h|scene_node\\.h))", kAlone, "<nlohmann/",
+      {"JSON", "(apps/|tests/|render/scene/((gltf/)?\\w+\\.cpp|scene_json\\.h|scene_node\\.h))", kAlone, "<nlohmann/",
        {"render/scene/scene.h", "nlohmann/json.hpp", false}},
   };
   return kRules;

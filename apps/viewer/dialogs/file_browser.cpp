@@ -21,7 +21,8 @@ bool can_be_opened(const std::filesystem::path& path) {
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const auto known = mesh_extensions();
-  return extension == ".json" || std::ranges::find(known, extension) != known.end();
+  return extension == ".json" || extension == ".gltf" || extension == ".glb" ||
+         std::ranges::find(known, extension) != known.end();
 }
 
 void FileBrowser::show(const std::filesystem::path& folder) {

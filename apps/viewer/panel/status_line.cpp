@@ -27,12 +27,23 @@ std::string one_line(std::string text) {
   return text;
 }
 
+// A method's draft may have fewer rays at full size; how many is told below.
+std::string draft_in_words(const Frame& frame) {
+  if (frame.reduction < 2) return "full size";
+  std::string text = "draft";
+  if (!frame.sides.empty() && frame.sides.front().result) {
+    const Image& image = frame.sides.front().result->image;
+    text += " of " + std::to_string(image.width) + " × " + std::to_string(image.height);
+  }
+  return text + ", 1/" + std::to_string(frame.reduction) + " of full size";
+}
+
 }  // namespace
 
 std::string picture_in_words(const Frame* frame, bool settled) {
   if (!frame) return "making the first picture";
   if (!frame->trouble.empty()) return "no picture";
-  std::string text = settled ? "final picture" : "draft";
+  std::string text = settled ? "final picture" : draft_in_words(*frame);
   for (const Side& side : frame->sides)
     if (side.rays)
       text += ", " + with_commas(static_cast<std::size_t>(side.rays)) + " rays a pixel" +

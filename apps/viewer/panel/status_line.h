@@ -9,7 +9,8 @@
 
 namespace penumbra::viewer {
 
-/// What the picture is: "final picture", "draft", how many rays, the error.
+/// What the picture is: "final picture", "full size" while something moves, "draft of 480 × 300, 1/2 of full size"; how many rays;
+/// the error.
 std::string picture_in_words(const Frame* frame, bool settled);
 
 struct StatusLineInput {

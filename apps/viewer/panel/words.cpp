@@ -15,6 +15,7 @@ constexpr Words kMethods[] = {{"silhouette", "Silhouette"},
                               {"occlusion-textures", "Occlusion textures"},
                               {"reference", "Reference"},
                               {"rays", "Rays where uncertain"},
+                              {"pcss", "PCSS"},
                               {"hard", "Hard shadow"},
                               {"none", "No shadow"}};
 

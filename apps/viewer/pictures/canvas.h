@@ -23,10 +23,10 @@ class Canvas {
  public:
   /// `plain`: titles and legend are left out. `wake` is called from other threads when there is something new to draw.
   Canvas(const gl::Functions& gl, bool plain, void (*wake)());
-  /// Uploads the pictures where the frame is another one.
-  void update(const State& state, std::shared_ptr<const Frame> frame) {
-    view_.update(state, std::move(frame));
-  }
+  /// The frame to draw from now on.
+  void show(std::shared_ptr<const Frame> frame) { view_.show(std::move(frame)); }
+  /// Uploads the pictures where the frame is another one. Between draw and what draws ImGui's lists.
+  void upload(const State& state) { view_.upload(state); }
   const Frame* frame() const { return view_.frame(); }
   /// Into ImGui's background, and the probe's window.
   void draw(const State& state, const CanvasInput& input);

@@ -66,11 +66,11 @@ const std::vector<TexturePicture>& textures_of(const Frame& frame) {
 
 }  // namespace
 
-void PictureView::update(const State& state, std::shared_ptr<const Frame> frame) {
-  if (frame == frame_ && exposure_ == state.exposure && scale_ == state.difference_scale &&
+void PictureView::upload(const State& state) {
+  if (uploaded_ == frame_ && exposure_ == state.exposure && scale_ == state.difference_scale &&
       shown_ == state.shown)
     return;
-  frame_ = std::move(frame);
+  uploaded_ = frame_;
   exposure_ = state.exposure;
   scale_ = state.difference_scale;
   shown_ = state.shown;

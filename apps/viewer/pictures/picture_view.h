@@ -17,8 +17,10 @@ class PictureView {
   /// `plain`: titles and legend are left out.
   PictureView(const gl::Functions& gl, bool plain)
       : plain_(plain), left_(gl), right_(gl), difference_(gl), textures_(gl) {}
-  /// Uploads what has changed since the last call.
-  void update(const State& state, std::shared_ptr<const Frame> frame);
+  /// The frame to draw from now on; its pictures come with the next upload.
+  void show(std::shared_ptr<const Frame> frame) { frame_ = std::move(frame); }
+  /// Uploads what has changed since the last call: before what ImGui was told is drawn.
+  void upload(const State& state);
   /// The pictures, into ImGui's background.
   void draw_picture(const State& state) const;
   /// What lies over them: divider, method and frame rate, the light, legend.
@@ -36,7 +38,7 @@ class PictureView {
 
   bool plain_;
   PictureTexture left_, right_, difference_, textures_;
-  std::shared_ptr<const Frame> frame_;
+  std::shared_ptr<const Frame> frame_, uploaded_;
   double exposure_ = 0.0, scale_ = 0.0;
   Shown shown_ = Shown::kPicture;
 };

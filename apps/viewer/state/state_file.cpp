@@ -103,6 +103,9 @@ void write_light(const Light& light, nlohmann::json& json) {
 
 nlohmann::json scene_document(const std::filesystem::path& path, const State& state) {
   nlohmann::json document = nlohmann::json::parse(state.model->document);
+  if (!document.contains("objects"))
+    throw UsageError(
+        "a scene of a glTF file cannot be saved as a scene file; save the picture, or change the glTF file");
   const bool bare = state.model->objects.size() != document["objects"].size();
   const std::filesystem::path folder = bare ? std::filesystem::path() : state.path.parent_path();
   for (nlohmann::json& object : document["objects"])

@@ -49,6 +49,7 @@ nlohmann::json report(const StatusInput& input) {
       {"settled", input.settled},
       {"holding", input.holding},
       {"message", input.message},
+      {"activity", input.activity},
       {"file", state.path.string()},
       {"method", state.left.method},
       {"against", state.right.method},

@@ -19,6 +19,7 @@ struct StatusInput {
   const Frame* frame;  ///< may be null
   const std::map<std::string, PicturePoint>& places;
   const std::string& message;
+  const std::string& activity;  ///< what is being made beside the picture, in words
   bool minimised;
   int per_second;  ///< pictures that arrived in the last second
   bool unsaved, can_undo, can_redo;

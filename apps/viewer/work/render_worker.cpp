@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <exception>
+#include <utility>
 
 #include "penumbra/mesh/error.h"
 
@@ -71,6 +73,22 @@ std::optional<ErrorFigures> error_of(const Frame& frame, const Accumulator& refe
     return error_figures(side.result->image.at(frame.channel("visibility")), first, second, judged);
   }
   return std::nullopt;
+}
+
+/// Milliseconds of all sides without what is made once and what the camera sees, which stays while only a light moves.
+double without_camera(const Frame& frame) {
+  double sum = 0.0;
+  for (const Side& side : frame.sides)
+    for (const StageTime& stage : side.result->stages)
+      if (stage.name != "surface_buffer") sum += stage.milliseconds;
+  return sum;
+}
+
+/// Whether the next picture takes as long. Where only a light moves, the first picture of another size does not tell: the
+/// camera's rays, and receivers in groups, are kept for those that follow.
+bool tells(const Frame& frame, bool camera_moved) {
+  return camera_moved ||
+         std::ranges::all_of(frame.sides, [](const Side& side) { return side.result->camera_rays == 0; });
 }
 
 }  // namespace
@@ -161,6 +179,18 @@ void RenderWorker::adopt(const RenderJob& job) {
   renderer_->set_camera(job.camera);
 }
 
+std::shared_ptr<RenderResult> RenderWorker::take_result() {
+  constexpr std::size_t kMost = 6;  // two sides of each: the picture under way, the newest, the one drawn
+  for (const auto& result : results_)
+    if (result.use_count() == 1) {
+      std::atomic_thread_fence(std::memory_order_acquire);  // after all that its last reader read
+      return result;
+    }
+  auto result = std::make_shared<RenderResult>();
+  if (results_.size() < kMost) results_.push_back(result);
+  return result;
+}
+
 void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOptions>& options,
                                 Frame& frame) {
   const auto start = std::chrono::steady_clock::now();
@@ -168,10 +198,10 @@ void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOp
   frame.sides.clear();
   for (RenderOptions each : options) {
     each.progress = [this](double) { return !outdated(); };
-    Side side{.result = std::make_shared<const RenderResult>(renderer_->render(each)),
-              .options = each,
-              .rays = is_reference(each) ? samples_of(each) : 0};
-    frame.sides.push_back(std::move(side));
+    std::shared_ptr<RenderResult> result = take_result();
+    renderer_->render(each, *result);
+    frame.sides.push_back(
+        {.result = std::move(result), .options = each, .rays = is_reference(each) ? samples_of(each) : 0});
   }
   frame.milliseconds = milliseconds_since(start);
 }
@@ -179,11 +209,12 @@ void RenderWorker::render_sides(const RenderJob& job, const std::vector<RenderOp
 void RenderWorker::answer(const RenderJob& job) {
   Frame frame = first_frame(job);
   std::vector<RenderOptions> options = job.sides;
+  const bool moved = !(std::exchange(camera_, job.camera) == job.camera);
   if (job.moving) {
     for (RenderOptions& each : options) each = draft_.draft_of(each);
     frame.reduction = draft_.reduction();
     render_sides(job, options, frame);
-    draft_.took(frame.milliseconds);
+    if (tells(frame, moved)) draft_.took(frame.milliseconds, moved);
     return publish(std::move(frame));
   }
   if (has_reference(options)) {  // something to look at until all rays are traced
@@ -194,7 +225,11 @@ void RenderWorker::answer(const RenderJob& job) {
     frame.refining = true;
     publish(frame);
   }
+  const bool is_new = model_ != job.model;
   render_sides(job, job.sides, frame);
+  const bool as_cheap = std::ranges::all_of(job.sides, DraftPolicy::is_as_cheap);
+  if (!is_new && tells(frame, moved)) draft_.took_in_full(frame.milliseconds, moved, as_cheap);
+  if (is_new && as_cheap) draft_.start(without_camera(frame));
   frame.final = true;
   frame.refining = has_reference(job.sides) && job.refine_to > 0;
   publish(frame);

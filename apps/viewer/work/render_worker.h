@@ -75,6 +75,8 @@ class RenderWorker {
   void adopt(const RenderJob& job);
   Frame first_frame(const RenderJob& job) const;
   void render_sides(const RenderJob& job, const std::vector<RenderOptions>& options, Frame& frame);
+  /// A result that nobody looks at any more, for its memory; else a new one.
+  std::shared_ptr<RenderResult> take_result();
   void refine(const RenderJob& job, Frame frame);
   void publish(Frame frame);
   bool outdated() const;
@@ -89,7 +91,11 @@ class RenderWorker {
   // Only the thread's:
   std::shared_ptr<const Scene> model_;
   std::unique_ptr<Renderer> renderer_;
+  /// Of the last picture.
+  Camera camera_;
   DraftPolicy draft_;
+  /// Of pictures; those of which there is no other owner are used again.
+  std::vector<std::shared_ptr<RenderResult>> results_;
   std::thread thread_;
 };
 

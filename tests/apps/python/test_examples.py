@@ -12,6 +12,7 @@ TOP = pathlib.Path(__file__).resolve().parents[3]
 EXAMPLES = TOP / "apps/python/examples"
 ARGUMENTS = {
     "lamp_design.py": [TOP / "data/meshes/bunny.ply", "--size", "24"],
+    "hours_map.py": [TOP / "data/sun/city-block.json", "--size", "24", "--minutes", "60"],
     "sun_hours.py": ["--size", "24", "--minutes", "60"],
     "ground_truth.py": [TOP / "data/scenes/torus-small.json", "--size", "48", "--rays", "16"],
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 
+#include "penumbra/render/renderer.h"
 #include "tests/apps/viewer/window_driver.h"
 
 namespace penumbra::test {
@@ -50,8 +51,9 @@ TEST_F(WindowTest, OverlaysAndProbeAreDrawn) {
 }
 
 TEST_F(WindowTest, PlainWindowIsThePictureOfRender) {
-  for (const char* method :
-       {"none", "hard", "dbuffer", "occlusion-textures", "silhouette", "rays", "reference"}) {
+  register_drawing_methods();
+  for (const MethodInfo& info : methods()) {
+    const std::string& method = info.name;
     Child window = start({kCube, "--size", "320x200", "--plain", "--method", method, "--samples", "32",
                           "--screenshot", path("w.png")});
     ASSERT_EQ(window.wait(), 0) << read_text(file("errors"));
@@ -86,9 +88,9 @@ TEST_F(WindowTest, DragTurnsAndSavedPictureIsThatOfTheSavedState) {
 
 TEST_F(WindowTest, SliderAndHandlesChangeTheLight) {
   open({kCube, "--size", "480x700"});
-  const Json before = status()["light"];
+  const Json opened = status()["camera"], before = status()["light"];
   key("shift+Home");
-  const auto own = [&](const Json& s) { return s["handles"].contains("x"); };
+  const auto own = [&](const Json& s) { return s["camera"] != opened && s["handles"].contains("x"); };
   Json now = settled("the light in view", [&](const Json& s) {
     return own(s) && s["handles"]["center"][1].get<double>() > 0.0 &&
            s["handles"]["x"][0].get<double>() < 480.0;
@@ -120,10 +122,11 @@ TEST_F(WindowTest, SliderAndHandlesChangeTheLight) {
 
 TEST_F(WindowTest, ASunIsTurnedByItsCenterAndBySliders) {
   open({PENUMBRA_DATA "/scenes/boxes-sun.json", "--size", "480x700"});
-  const Json before = status()["light"];
+  const Json opened = status()["camera"], before = status()["light"];
   key("shift+Home");
   Json now = settled("the sun in view", [&](const Json& s) {
-    return s["handles"].contains("center") && s["handles"]["center"][1].get<double>() > 20.0;
+    return s["camera"] != opened && s["handles"].contains("center") &&
+           s["handles"]["center"][1].get<double>() > 20.0;
   });
   EXPECT_FALSE(now["handles"].contains("x")) << "it has no place";
   const auto turned = [&](const Json& s) { return s["light"]["direction"] != now["light"]["direction"]; };
@@ -168,16 +171,26 @@ TEST_F(WindowTest, KeysChangeMethodAndArrangementAndTheDividerMoves) {
   EXPECT_EQ(wait_for_end(), 0);
 }
 
-TEST_F(WindowTest, ExportsVolumesAndASequence) {
+// The solids are those of the command line, the cells its cells.
+TEST_F(WindowTest, ExportsSolidsCellsAndASequence) {
   open({kCube, "--size", "160x120"});
   const auto says = [](const char* words) {
     return
         [words](const Json& s) { return s["message"].get<std::string>().find(words) != std::string::npos; };
   };
   key("ctrl+e");
-  until("the volumes", says("saved"));
-  for (const char* kind : {"sheets", "penumbra", "umbra"})
-    EXPECT_TRUE(std::filesystem::exists(file(std::string("cube-medium-") + kind + ".ply"))) << kind;
+  until("the solids", says("cube-medium-001-{umbra,penumbra}.ply"));
+  key("ctrl+shift+e");
+  until("the cells", says("cube-medium-001-{sheets,penumbra-cells,umbra-cells}.ply"));
+  for (const char* form : {"solid", "cells"}) {
+    const std::string end = std::string(form) == "cells" ? "-cells.ply" : ".ply";
+    const Outcome cli = run(
+        {"volumes", kCube, "--merge", "--form", form, "--umbra", path("u.ply"), "--penumbra", path("p.ply")});
+    ASSERT_EQ(cli.code, 0) << cli.err;
+    EXPECT_TRUE(read_text(file("cube-medium-001-umbra" + end)) == read_text(file("u.ply"))) << form;
+    EXPECT_TRUE(read_text(file("cube-medium-001-penumbra" + end)) == read_text(file("p.ply"))) << form;
+  }
+  EXPECT_TRUE(std::filesystem::exists(file("cube-medium-001-sheets.ply")));
   key("ctrl+p");
   until("the sequence", says("24 pictures"));
   EXPECT_TRUE(std::filesystem::exists(file("cube-medium-path-024.png")));

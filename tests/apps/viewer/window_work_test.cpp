@@ -88,6 +88,18 @@ TEST_F(WorkTest, ALightThatIsDraggedTurnsToWhatItShoneAtUnlessToldOtherwise) {
   EXPECT_EQ(status()["light"]["normal"], before["light"]["normal"]);
 }
 
+// On a busy machine not at once: full size is tried again after some drafts.
+TEST_F(WorkTest, ALightIsDraggedAtFullSizeWhereThatKeepsUp) {
+  open({kCube, "--size", "480x400"});
+  const Json before = status();
+  int step = 5;
+  drag(before["handles"]["center"], 20, 5, "a picture of full size meanwhile", [&](const Json& s) {
+    tool("mousemove_relative -- " + std::to_string(step = -step) + " 0");
+    return s["light"]["center"] != before["light"]["center"] && s["frame"]["final"] == false &&
+           s["frame"]["reduction"] == 1;
+  });
+}
+
 TEST_F(WorkTest, EscapeEndsADragAndTakesItBack) {
   open({kCube, "--size", "480x400"});
   const Json before = status();
@@ -101,6 +113,20 @@ TEST_F(WorkTest, EscapeEndsADragAndTakesItBack) {
   settled("the light back", [&](const Json& s) { return s["light"] == before["light"]; });
   tool("mouseup 1");
   EXPECT_EQ(status()["can_undo"], false);
+}
+
+// The usual detail of a torus takes many seconds.
+TEST_F(WorkTest, EscapeGivesUpAnExportAndThenLeaves) {
+  open({kTorus, "--size", "320x200"});
+  key("ctrl+e");
+  until("the export", [](const Json& s) {
+    return s["activity"].get<std::string>().starts_with("exporting umbra and penumbra");
+  });
+  key("Escape");
+  until("its end", [](const Json& s) { return s["message"] == "given up: umbra and penumbra"; });
+  EXPECT_FALSE(std::filesystem::exists(file("torus-medium-001-umbra.ply")));
+  key("Escape");
+  EXPECT_EQ(wait_for_end(), 0);
 }
 
 TEST_F(WorkTest, EscapeAsksBeforeAChangedLightIsLost) {

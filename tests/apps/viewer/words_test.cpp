@@ -68,11 +68,17 @@ TEST(Legend, NamesTheColorsOfEveryOverlayThatHasSome) {
 TEST(StatusLine, TellsWhatThePictureIs) {
   EXPECT_EQ(picture_in_words(nullptr, false), "making the first picture");
   Frame frame;
-  EXPECT_EQ(picture_in_words(&frame, false), "draft");
+  EXPECT_EQ(picture_in_words(&frame, false), "full size") << "while something moves";
   EXPECT_EQ(picture_in_words(&frame, true), "final picture");
   frame.sides.push_back({.result = nullptr, .options = {}, .rays = 4096});
   frame.refining = true;
   EXPECT_EQ(picture_in_words(&frame, true), "final picture, 4,096 rays a pixel, refining");
+  RenderResult small;
+  small.image.width = 480;
+  small.image.height = 300;
+  frame.sides = {{.result = std::make_shared<const RenderResult>(std::move(small)), .options = {}}};
+  frame.reduction = 2;
+  EXPECT_EQ(picture_in_words(&frame, false), "draft of 480 × 300, 1/2 of full size");
 }
 
 TEST(FileBrowser, ShowsScenesAndMeshes) {
