@@ -62,7 +62,7 @@ std::vector<OptionSchema> rays_options() {
                      .usual = std::uint64_t{0},
                      .unit = "edges across the light",
                      .help = "Receivers that see no more edges are integrated as by silhouette; 0: none is",
-                     .steps = std::vector<OptionValue>{std::uint64_t{20}}});
+                     .steps = std::vector<OptionValue>{}});  // auto varies it
   return options;
 }
 

@@ -37,7 +37,7 @@ TEST_F(MadeByTest, IsInTheFile) {
   EXPECT_EQ(metadata.at("penumbraScene"), scene_);
   EXPECT_FALSE(metadata.at("penumbraVersion").empty());
   EXPECT_EQ(json::parse(metadata.at("penumbraOptions")),
-            (json{{"denoise", "off"}, {"samples", 16}, {"seed", 18446744073709551615u}}));
+            (json{{"areas-up-to", 0}, {"denoise", "off"}, {"samples", 16}, {"seed", 18446744073709551615u}}));
   const json light = json::parse(metadata.at("penumbraLights")).at(0),
              camera = json::parse(metadata.at("penumbraCamera"));
   EXPECT_EQ(light.at("shape"), "disk");
