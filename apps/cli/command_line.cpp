@@ -17,7 +17,7 @@ constexpr const char* kDescription =
     "Penumbra: umbra and penumbra volumes, and soft-shadow images, of meshes under a disk light.";
 
 constexpr const char* kFooter =
-    R"(A SCENE is a scene file (*.json) or a bare mesh (OBJ, PLY, OFF, STL), which gets a floor, a light and a camera.
+    R"(A SCENE is a scene file (*.json), a glTF file or a bare mesh (OBJ, PLY, OFF, STL), which gets a floor, a light and a camera.
 
 Examples:
   penumbra render  bunny.ply --output bunny.png
