@@ -26,11 +26,10 @@ void hide_below_horizon(const AreaLight& light, const Receivers& receivers, std:
 
 }  // namespace
 
-BackprojectionResult backprojected_visibility(const Scene& scene, const AreaLight& light,
-                                              const Receivers& receivers,
-                                              const BackprojectionOptions& options, bool keep_textures,
-                                              tbb::task_arena& threads, const Progress& progress) {
-  BackprojectionResult out;
+MethodResult backprojected_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
+                                      const BackprojectionOptions& options, bool keep_textures,
+                                      tbb::task_arena& threads, const Progress& progress) {
+  MethodResult out;
   out.visibility.assign(receivers.size(), 1.0f);
   StageClock clock;
   const ReceiverMiddle middle = receiver_middle(receivers);

@@ -17,10 +17,9 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/method.h"
 #include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
-#include "penumbra/render/support/counts.h"
-#include "penumbra/render/support/texture_picture.h"
 #include "render/backprojection/patch_tree.h"
 #include "render/light/area_light.h"
 
@@ -36,19 +35,10 @@ struct BackprojectionOptions {
   detail::PatchOptions patches;
 };
 
-struct BackprojectionResult {
-  /// One a receiver; 1 where there is none.
-  std::vector<float> visibility;
-  StageTimes stages;
-  Counts counts;
-  std::vector<TexturePicture> textures;
-};
-
 /// Requires a light that is no point. Cost O(faces + texels) a layer, and for each receiver the texels in front of its light. On
 /// all threads; the result does not depend on their number. Throws Cancelled.
-BackprojectionResult backprojected_visibility(const Scene& scene, const AreaLight& light,
-                                              const Receivers& receivers,
-                                              const BackprojectionOptions& options, bool keep_textures,
-                                              tbb::task_arena& threads, const Progress& progress);
+MethodResult backprojected_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
+                                      const BackprojectionOptions& options, bool keep_textures,
+                                      tbb::task_arena& threads, const Progress& progress);
 
 }  // namespace penumbra

@@ -19,15 +19,8 @@ class BackprojectionMethod : public Method {
         .layers = static_cast<int>(integer_of(values, "map-layers")),
         .samples = static_cast<int>(integer_of(values, "mask-samples")),
         .patches = {.bias = detail::bias_of(values), .fill_gaps = word_of(values, "gap-filling") == "on"}};
-    BackprojectionResult seen =
-        backprojected_visibility(scene_, area_light(input.light), input.receivers, options,
-                                 input.keep_textures, input.rays.arena(), input.progress);
-    MethodResult out;
-    out.visibility = std::move(seen.visibility);
-    out.stages = std::move(seen.stages);
-    out.counts = std::move(seen.counts);
-    out.textures = std::move(seen.textures);
-    return out;
+    return backprojected_visibility(scene_, area_light(input.light), input.receivers, options,
+                                    input.keep_textures, input.rays.arena(), input.progress);
   }
 
  private:

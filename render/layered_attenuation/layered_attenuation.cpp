@@ -11,11 +11,10 @@ namespace penumbra {
 
 using namespace detail;
 
-LayeredAttenuationResult layered_attenuation(const Scene& scene, const AreaLight& light,
-                                             const Receivers& receivers, const AttenuationOptions& options,
-                                             bool keep_textures, tbb::task_arena& threads,
-                                             const Progress& progress) {
-  LayeredAttenuationResult out;
+MethodResult layered_attenuation(const Scene& scene, const AreaLight& light, const Receivers& receivers,
+                                 const AttenuationOptions& options, bool keep_textures,
+                                 tbb::task_arena& threads, const Progress& progress) {
+  MethodResult out;
   out.visibility.assign(receivers.size(), 1.0f);
   StageClock clock;
   const OuterPenumbra outer(scene, light, receivers);

@@ -16,28 +16,18 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/method.h"
 #include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
-#include "penumbra/render/support/counts.h"
-#include "penumbra/render/support/texture_picture.h"
 #include "render/layered_attenuation/attenuation_map.h"
 #include "render/light/area_light.h"
 
 namespace penumbra {
 
-struct LayeredAttenuationResult {
-  /// One a receiver; 1 where there is none.
-  std::vector<float> visibility;
-  StageTimes stages;
-  Counts counts;
-  std::vector<TexturePicture> textures;
-};
-
 /// Requires a light that is no point. Cost O(views · (faces + texels)), and O(layers) a receiver. The result does not depend on the
 /// number of threads. Throws Cancelled.
-LayeredAttenuationResult layered_attenuation(const Scene& scene, const AreaLight& light,
-                                             const Receivers& receivers,
-                                             const detail::AttenuationOptions& options, bool keep_textures,
-                                             tbb::task_arena& threads, const Progress& progress);
+MethodResult layered_attenuation(const Scene& scene, const AreaLight& light, const Receivers& receivers,
+                                 const detail::AttenuationOptions& options, bool keep_textures,
+                                 tbb::task_arena& threads, const Progress& progress);
 
 }  // namespace penumbra

@@ -13,18 +13,11 @@ class LayeredAttenuationMethod : public Method {
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
-    LayeredAttenuationResult seen =
-        layered_attenuation(scene_, area_light(input.light), input.receivers,
-                            {.size = static_cast<int>(integer_of(input.options, "attenuation-size")),
-                             .views = static_cast<int>(integer_of(input.options, "light-views")),
-                             .tolerance = real_of(input.options, "layer-tolerance")},
-                            input.keep_textures, input.rays.arena(), input.progress);
-    MethodResult out;
-    out.visibility = std::move(seen.visibility);
-    out.stages = std::move(seen.stages);
-    out.counts = std::move(seen.counts);
-    out.textures = std::move(seen.textures);
-    return out;
+    return layered_attenuation(scene_, area_light(input.light), input.receivers,
+                               {.size = static_cast<int>(integer_of(input.options, "attenuation-size")),
+                                .views = static_cast<int>(integer_of(input.options, "light-views")),
+                                .tolerance = real_of(input.options, "layer-tolerance")},
+                               input.keep_textures, input.rays.arena(), input.progress);
   }
 
  private:

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <optional>
 
+#include "render/center_view/map_receivers.h"
 #include "render/light/light_samples.h"
 #include "render/rays/each_receiver.h"
 #include "render/receivers/receiver_middle.h"
 #include "render/receivers/sample_key.h"
-#include "render/center_view/map_receivers.h"
 
 namespace penumbra {
 namespace {
@@ -81,10 +81,10 @@ class Lookup {
 
 }  // namespace
 
-PcssResult pcss_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
-                           const PcssOptions& options, bool keep_textures, tbb::task_arena& threads,
-                           const Progress& progress) {
-  PcssResult out;
+MethodResult pcss_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
+                             const PcssOptions& options, bool keep_textures, tbb::task_arena& threads,
+                             const Progress& progress) {
+  MethodResult out;
   out.visibility.assign(receivers.size(), 1.0f);
   StageClock clock;
   const ReceiverMiddle middle = receiver_middle(receivers);

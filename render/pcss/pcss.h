@@ -20,12 +20,11 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/method.h"
 #include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
-#include "penumbra/render/support/counts.h"
-#include "penumbra/render/support/texture_picture.h"
-#include "render/light/area_light.h"
 #include "render/center_view/map_options.h"
+#include "render/light/area_light.h"
 
 namespace penumbra {
 
@@ -40,18 +39,10 @@ struct PcssOptions {
   bool receiver_plane = true;
 };
 
-struct PcssResult {
-  /// One a receiver; 1 where there is none.
-  std::vector<float> visibility;
-  StageTimes stages;
-  Counts counts;
-  std::vector<TexturePicture> textures;
-};
-
 /// Requires a light that is no point. The horizon is a factor of its own. Cost O(faces + texels), and O(samples) a
 /// receiver. On all threads; the result does not depend on their number. Throws Cancelled.
-PcssResult pcss_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
-                           const PcssOptions& options, bool keep_textures, tbb::task_arena& threads,
-                           const Progress& progress);
+MethodResult pcss_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
+                             const PcssOptions& options, bool keep_textures, tbb::task_arena& threads,
+                             const Progress& progress);
 
 }  // namespace penumbra

@@ -21,15 +21,8 @@ class PcssMethod : public Method {
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
-    PcssResult seen =
-        pcss_visibility(scene_, area_light(input.light), input.receivers, options_of(input.options),
-                        input.keep_textures, input.rays.arena(), input.progress);
-    MethodResult out;
-    out.visibility = std::move(seen.visibility);
-    out.stages = std::move(seen.stages);
-    out.counts = std::move(seen.counts);
-    out.textures = std::move(seen.textures);
-    return out;
+    return pcss_visibility(scene_, area_light(input.light), input.receivers, options_of(input.options),
+                           input.keep_textures, input.rays.arena(), input.progress);
   }
 
  private:

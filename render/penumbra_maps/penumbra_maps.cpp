@@ -12,11 +12,10 @@ namespace penumbra {
 
 using namespace detail;
 
-PenumbraMapResult penumbra_map_visibility(const Scene& scene, const LightShape& shape,
-                                          const Receivers& receivers, const PenumbraMapOptions& options,
-                                          bool keep_textures, tbb::task_arena& threads,
-                                          const Progress& progress) {
-  PenumbraMapResult out;
+MethodResult penumbra_map_visibility(const Scene& scene, const LightShape& shape, const Receivers& receivers,
+                                     const PenumbraMapOptions& options, bool keep_textures,
+                                     tbb::task_arena& threads, const Progress& progress) {
+  MethodResult out;
   out.visibility.assign(receivers.size(), 1.0f);
   StageClock clock;
   const AreaLight light = area_light(shape);

@@ -17,10 +17,9 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/method.h"
 #include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
-#include "penumbra/render/support/counts.h"
-#include "penumbra/render/support/texture_picture.h"
 #include "render/center_view/map_options.h"
 
 namespace penumbra {
@@ -32,19 +31,10 @@ struct PenumbraMapOptions {
   detail::MapBias bias;
 };
 
-struct PenumbraMapResult {
-  /// One a receiver; 1 where there is none.
-  std::vector<float> visibility;
-  StageTimes stages;
-  Counts counts;
-  std::vector<TexturePicture> textures;
-};
-
 /// Requires a light that is no point. The horizon is a factor of its own. Cost O(faces + texels), the penumbrae's texels, and O(1)
 /// a receiver. On all threads; the result does not depend on their number. Throws Cancelled.
-PenumbraMapResult penumbra_map_visibility(const Scene& scene, const LightShape& light,
-                                          const Receivers& receivers, const PenumbraMapOptions& options,
-                                          bool keep_textures, tbb::task_arena& threads,
-                                          const Progress& progress);
+MethodResult penumbra_map_visibility(const Scene& scene, const LightShape& light, const Receivers& receivers,
+                                     const PenumbraMapOptions& options, bool keep_textures,
+                                     tbb::task_arena& threads, const Progress& progress);
 
 }  // namespace penumbra

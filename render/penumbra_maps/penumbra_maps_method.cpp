@@ -13,17 +13,10 @@ class PenumbraMapsMethod : public Method {
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
-    PenumbraMapResult seen =
-        penumbra_map_visibility(scene_, input.light, input.receivers,
-                                {.map_size = static_cast<int>(integer_of(input.options, "map-size")),
-                                 .bias = detail::bias_of(input.options)},
-                                input.keep_textures, input.rays.arena(), input.progress);
-    MethodResult out;
-    out.visibility = std::move(seen.visibility);
-    out.stages = std::move(seen.stages);
-    out.counts = std::move(seen.counts);
-    out.textures = std::move(seen.textures);
-    return out;
+    return penumbra_map_visibility(scene_, input.light, input.receivers,
+                                   {.map_size = static_cast<int>(integer_of(input.options, "map-size")),
+                                    .bias = detail::bias_of(input.options)},
+                                   input.keep_textures, input.rays.arena(), input.progress);
   }
 
  private:

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "penumbra/render/receivers/receivers.h"
+#include "render/center_view/volume_polygons.h"
 #include "render/light/area_light.h"
 #include "render/rays/ray_packets.h"
-#include "render/center_view/volume_polygons.h"
 
 namespace penumbra::detail {
 

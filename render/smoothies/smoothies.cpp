@@ -34,10 +34,10 @@ double visible(const SmoothieMap::Fin& fin, const MapReceiver& receiver, const L
 
 }  // namespace
 
-SmoothieResult smoothie_visibility(const Scene& scene, const LightShape& shape, const Receivers& receivers,
-                                   const SmoothieOptions& options, bool keep_textures,
-                                   tbb::task_arena& threads, const Progress& progress) {
-  SmoothieResult out;
+MethodResult smoothie_visibility(const Scene& scene, const LightShape& shape, const Receivers& receivers,
+                                 const SmoothieOptions& options, bool keep_textures, tbb::task_arena& threads,
+                                 const Progress& progress) {
+  MethodResult out;
   out.visibility.assign(receivers.size(), 1.0f);
   StageClock clock;
   const AreaLight light = area_light(shape);

@@ -20,10 +20,9 @@
 
 #include "penumbra/mesh/progress.h"
 #include "penumbra/mesh/stage_clock.h"
+#include "penumbra/render/method.h"
 #include "penumbra/render/receivers/receivers.h"
 #include "penumbra/render/scene/scene.h"
-#include "penumbra/render/support/counts.h"
-#include "penumbra/render/support/texture_picture.h"
 #include "render/center_view/map_options.h"
 
 namespace penumbra {
@@ -37,18 +36,10 @@ struct SmoothieOptions {
   double width = 1.0;
 };
 
-struct SmoothieResult {
-  /// One a receiver; 1 where there is none.
-  std::vector<float> visibility;
-  StageTimes stages;
-  Counts counts;
-  std::vector<TexturePicture> textures;
-};
-
 /// Requires a near light that is no point. The horizon is a factor of its own. Cost O(faces + texels), the fins' texels, and
 /// O(1) a receiver. On all threads; the result does not depend on their number. Throws Cancelled.
-SmoothieResult smoothie_visibility(const Scene& scene, const LightShape& light, const Receivers& receivers,
-                                   const SmoothieOptions& options, bool keep_textures,
-                                   tbb::task_arena& threads, const Progress& progress);
+MethodResult smoothie_visibility(const Scene& scene, const LightShape& light, const Receivers& receivers,
+                                 const SmoothieOptions& options, bool keep_textures, tbb::task_arena& threads,
+                                 const Progress& progress);
 
 }  // namespace penumbra

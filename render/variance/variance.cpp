@@ -78,10 +78,10 @@ double lowest_of(const LightProjection& projection, const Receivers& receivers) 
 
 }  // namespace
 
-VarianceResult variance_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
-                                   const VarianceOptions& options, bool keep_textures,
-                                   tbb::task_arena& threads, const Progress& progress) {
-  VarianceResult out;
+MethodResult variance_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
+                                 const VarianceOptions& options, bool keep_textures, tbb::task_arena& threads,
+                                 const Progress& progress) {
+  MethodResult out;
   out.visibility.assign(receivers.size(), 1.0f);
   StageClock clock;
   const ReceiverMiddle middle = receiver_middle(receivers);

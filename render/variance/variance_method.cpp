@@ -17,14 +17,8 @@ class VarianceMethod : public Method {
     const VarianceOptions options{.map_size = static_cast<int>(integer_of(input.options, "map-size")),
                                   .warp = real_of(input.options, "depth-warp"),
                                   .least_share = real_of(input.options, "leak-cut")};
-    VarianceResult seen = variance_visibility(scene_, area_light(input.light), input.receivers, options,
-                                              input.keep_textures, input.rays.arena(), input.progress);
-    MethodResult out;
-    out.visibility = std::move(seen.visibility);
-    out.stages = std::move(seen.stages);
-    out.counts = std::move(seen.counts);
-    out.textures = std::move(seen.textures);
-    return out;
+    return variance_visibility(scene_, area_light(input.light), input.receivers, options, input.keep_textures,
+                               input.rays.arena(), input.progress);
   }
 
  private:

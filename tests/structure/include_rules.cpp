@@ -24,7 +24,8 @@ std::string drawing_methods() {
 // Folders of render/ that every method may use: the last are the edges that receivers see. Each other folder of render/ is
 // a method.
 const std::string kShared =
-    "(?:support|light|scene|receivers|rays|center_view|gl|image|shading|plan|silhouette/(?:edges|merge|collect))/";
+    "(?:support|light|scene|receivers|rays|center_view|gl|image|shading|plan|silhouette/"
+    "(?:edges|merge|collect))/";
 const std::string kMethod = "render/(?!" + kShared + ")(\\w+)/";
 // What draws; all other folders of render/ are of penumbra::visibility.
 const std::string kDraws = "(?:gl|shading|image|" + drawing_methods() + ")/";

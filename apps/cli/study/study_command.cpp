@@ -97,8 +97,9 @@ void add_study_command(CLI::App& app) {
   command.add_option("-o,--output", study.output, "Folder of the rows, pictures and page; made if missing")
       ->required()
       ->type_name("DIR");
-  command.add_flag("--quick", study.quick,
-                   "For a first look: 320x240, few settings, 3 frames, 1,024 rays a reference, few pixels in double");
+  command.add_flag(
+      "--quick", study.quick,
+      "For a first look: 320x240, few settings, 3 frames, 1,024 rays a reference, few pixels in double");
   command.add_option("--methods", study.methods, "Only these methods, divided by commas")
       ->delimiter(',')
       ->type_name("NAMES");

@@ -106,7 +106,8 @@ PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receivers, con
 /// of a light (`weight` as in are_one_sided).
 class SidesTest {
  public:
-  explicit SidesTest(const FloatBox& receivers, float weight = 1.0f) : receivers_(receivers), weight_(weight) {}
+  explicit SidesTest(const FloatBox& receivers, float weight = 1.0f)
+      : receivers_(receivers), weight_(weight) {}
   SidesTest(const Vec3& middle, const Vec3& half) : receivers_(middle, half) {}
   /// Bit i is set where block i is dropped.
   PENUMBRA_INLINE std::uint32_t dropped(const Children& c) const {

@@ -29,8 +29,7 @@ UnitLight::UnitLight(const CircularLight& light, const Bounds& asked_about)
   const double reach = radius > 0.0 ? radius : 1.0;
   if (light.is_distant())
     look_from_afar(asked_about, reach);
-  else if (!asked_about.empty() &&
-           glm::dot(asked_about.center() - light.center, axes_.w) > kFar * reach)
+  else if (!asked_about.empty() && glm::dot(asked_about.center() - light.center, axes_.w) > kFar * reach)
     look_from_afar(asked_about, reach);
 }
 
