@@ -75,6 +75,21 @@ void cut_to_box(const GroupFrame& frame, Lanes& lanes, int* valid) {
   for (std::size_t k = 0; k < kRays; ++k) valid[k] = misses[k] != 0.0 ? 0 : valid[k];
 }
 
+/// Embree looks at rays that are not valid, too, where the processor has no registers for sixteen: they are made to end before they begin.
+PENUMBRA_VECTOR_CLONES
+void empty_others(GroupRays& rays) {
+  for (std::size_t k = 0; k < kRays; ++k) {
+    const bool valid = rays.valid[k] != 0;
+    rays.ray.org_x[k] = valid ? rays.ray.org_x[k] : 0.0f;
+    rays.ray.org_y[k] = valid ? rays.ray.org_y[k] : 0.0f;
+    rays.ray.org_z[k] = valid ? rays.ray.org_z[k] : 0.0f;
+    rays.ray.dir_x[k] = valid ? rays.ray.dir_x[k] : 1.0f;
+    rays.ray.dir_y[k] = valid ? rays.ray.dir_y[k] : 1.0f;
+    rays.ray.dir_z[k] = valid ? rays.ray.dir_z[k] : 1.0f;
+    rays.ray.tfar[k] = valid ? rays.ray.tfar[k] : -1.0f;
+  }
+}
+
 PENUMBRA_VECTOR_CLONES
 void round_to_float(const Lanes& lanes, GroupRays& out) {
   for (std::size_t k = 0; k < kRays; ++k) {
@@ -108,6 +123,7 @@ bool GroupRays::set(const RayPacket& packet, const std::int32_t* wanted, const G
   std::copy_n(wanted, kRays, valid);
   if (to_frame(packet, frame, lanes)) cut_to_box(frame, lanes, valid);
   round_to_float(lanes, *this);
+  empty_others(*this);
   return std::any_of(valid, valid + kRays, [](int each) { return each != 0; });
 }
 
