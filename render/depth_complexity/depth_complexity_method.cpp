@@ -5,6 +5,7 @@
 #include "render/rays/point_light.h"
 #include "render/rays/ray_methods.h"
 #include "render/rays/reference.h"
+#include "render/rays/with_unoccluded.h"
 #include "render/silhouette/edges/edges_of_scene.h"
 
 namespace penumbra {
@@ -29,27 +30,21 @@ class DepthComplexityMethod : public Method {
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
-    MethodResult out;
     StageClock clock;
     const detail::SceneEdges& edges = edges_.made(input.rays.arena());
     clock.finish("edge_hierarchy");
-    out.setup = clock.stages();
     const ReferenceOptions sampling = sampling_of(input.options);
-    DepthComplexityOptions options{.samples = sampling.samples, .seed = sampling.seed};
-    const double first = input.with_unoccluded ? 0.5 : 1.0;
-    DepthComplexityResult seen =
-        depth_complexity_visibility(scene_, input.rays, edges, input.light, input.receivers, options,
-                                    part_of(input.progress, 0.0, first));
-    out.counts = to_counts(seen.counts);
-    out.visibility = std::move(seen.visibility);
-    out.stages = std::move(seen.stages);
-    if (input.with_unoccluded) {
-      options.horizon = false;
-      seen = depth_complexity_visibility(scene_, input.rays, edges, input.light, input.receivers, options,
-                                         part_of(input.progress, first, 1.0));
-      out.unoccluded = std::move(seen.visibility);
-      out.stages.insert(out.stages.end(), seen.stages.begin(), seen.stages.end());
-    }
+    MethodResult out = detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
+      DepthComplexityResult seen = depth_complexity_visibility(
+          scene_, input.rays, edges, input.light, input.receivers,
+          {.samples = sampling.samples, .seed = sampling.seed, .horizon = horizon}, progress);
+      MethodResult of_pass;
+      of_pass.visibility = std::move(seen.visibility);
+      of_pass.stages = std::move(seen.stages);
+      of_pass.counts = to_counts(seen.counts);
+      return of_pass;
+    });
+    out.setup = clock.stages();
     return out;
   }
 
@@ -67,7 +62,7 @@ MethodInfo depth_complexity_method() {
           .takes_distant = true,
           .gives_unoccluded = true,
           .converges = true,
-          .options = sampling_options(),
+          .options = dear_sampling_options(),
           .make = [](const Scene& objects) { return std::make_unique<DepthComplexityMethod>(objects); }};
 }
 

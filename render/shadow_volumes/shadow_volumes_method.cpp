@@ -1,6 +1,7 @@
 #include "render/shadow_volumes/shadow_volumes_method.h"
 
 #include "render/rays/ray_scene.h"
+#include "render/rays/with_unoccluded.h"
 #include "render/shadow_volumes/shadow_volumes.h"
 
 namespace penumbra {
@@ -18,25 +19,18 @@ class ShadowVolumesMethod : public Method {
   explicit ShadowVolumesMethod(const Scene& objects) : scene_(objects) {}
 
   MethodResult run(const MethodInput& input) override {
-    ShadowVolumeOptions options{.cull = word_of(input.options, "volume-culling") == "on",
-                                .clamp = word_of(input.options, "volume-clamping") == "on"};
-    const double first = input.with_unoccluded ? 0.5 : 1.0;
-    const auto seen = [&](double from, double to) {
-      return shadow_volumes(scene_, input.light, input.receivers, options, input.rays.arena(),
-                            part_of(input.progress, from, to));
-    };
-    MethodResult out;
-    ShadowVolumeResult result = seen(0.0, first);
-    out.counts = to_counts(result.counts);
-    out.visibility = std::move(result.visibility);
-    out.stages = std::move(result.stages);
-    if (input.with_unoccluded) {
-      options.horizon = false;
-      result = seen(first, 1.0);
-      out.unoccluded = std::move(result.visibility);
-      out.stages.insert(out.stages.end(), result.stages.begin(), result.stages.end());
-    }
-    return out;
+    const auto is_on = [&](const char* option) { return word_of(input.options, option) == "on"; };
+    return detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
+      ShadowVolumeResult seen = shadow_volumes(
+          scene_, input.light, input.receivers,
+          {.cull = is_on("volume-culling"), .clamp = is_on("volume-clamping"), .horizon = horizon},
+          input.rays.arena(), progress);
+      MethodResult out;
+      out.visibility = std::move(seen.visibility);
+      out.stages = std::move(seen.stages);
+      out.counts = to_counts(seen.counts);
+      return out;
+    });
   }
 
  private:

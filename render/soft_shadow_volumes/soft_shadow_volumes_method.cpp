@@ -2,6 +2,7 @@
 
 #include "penumbra/mesh/stage_clock.h"
 #include "render/rays/point_light.h"
+#include "render/rays/with_unoccluded.h"
 #include "render/silhouette/edges/edges_of_scene.h"
 #include "render/soft_shadow_volumes/soft_shadow_volumes.h"
 
@@ -26,25 +27,21 @@ class SoftShadowVolumesMethod : public Method {
 
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
-    MethodResult out;
     StageClock clock;
     const detail::SceneEdges& edges = edges_.made(input.rays.arena());
     clock.finish("edge_hierarchy");
+    const auto splits = static_cast<int>(integer_of(input.options, "light-splits"));
+    MethodResult out = detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
+      SoftShadowVolumeResult seen =
+          soft_shadow_volumes(scene_, input.rays, edges, input.light, input.receivers,
+                              {.splits = splits, .horizon = horizon}, progress);
+      MethodResult of_pass;
+      of_pass.visibility = std::move(seen.visibility);
+      of_pass.stages = std::move(seen.stages);
+      of_pass.counts = to_counts(seen.counts);
+      return of_pass;
+    });
     out.setup = clock.stages();
-    SoftShadowVolumeOptions options{.splits = static_cast<int>(integer_of(input.options, "light-splits"))};
-    const double first = input.with_unoccluded ? 0.5 : 1.0;
-    SoftShadowVolumeResult seen = soft_shadow_volumes(scene_, input.rays, edges, input.light, input.receivers,
-                                                      options, part_of(input.progress, 0.0, first));
-    out.counts = to_counts(seen.counts);
-    out.visibility = std::move(seen.visibility);
-    out.stages = std::move(seen.stages);
-    if (input.with_unoccluded) {
-      options.horizon = false;
-      seen = soft_shadow_volumes(scene_, input.rays, edges, input.light, input.receivers, options,
-                                 part_of(input.progress, first, 1.0));
-      out.unoccluded = std::move(seen.visibility);
-      out.stages.insert(out.stages.end(), seen.stages.begin(), seen.stages.end());
-    }
     return out;
   }
 

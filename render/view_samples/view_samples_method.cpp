@@ -4,6 +4,7 @@
 #include "render/rays/ray_methods.h"
 #include "render/rays/ray_scene.h"
 #include "render/rays/reference.h"
+#include "render/rays/with_unoccluded.h"
 #include "render/view_samples/view_samples.h"
 
 namespace penumbra {
@@ -24,24 +25,17 @@ class ViewSamplesMethod : public Method {
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
     const ReferenceOptions sampling = sampling_of(input.options);
-    ViewSampleOptions options{.samples = sampling.samples, .seed = sampling.seed};
-    const double first = input.with_unoccluded ? 0.5 : 1.0;
-    const auto seen = [&](double from, double to) {
-      return view_sample_visibility(scene_, input.light, input.receivers, options, input.rays.arena(),
-                                    part_of(input.progress, from, to));
-    };
-    MethodResult out;
-    ViewSampleResult result = seen(0.0, first);
-    out.counts = to_counts(result.counts);
-    out.visibility = std::move(result.visibility);
-    out.stages = std::move(result.stages);
-    if (input.with_unoccluded) {
-      options.horizon = false;
-      result = seen(first, 1.0);
-      out.unoccluded = std::move(result.visibility);
-      out.stages.insert(out.stages.end(), result.stages.begin(), result.stages.end());
-    }
-    return out;
+    return detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
+      ViewSampleResult seen =
+          view_sample_visibility(scene_, input.light, input.receivers,
+                                 {.samples = sampling.samples, .seed = sampling.seed, .horizon = horizon},
+                                 input.rays.arena(), progress);
+      MethodResult out;
+      out.visibility = std::move(seen.visibility);
+      out.stages = std::move(seen.stages);
+      out.counts = to_counts(seen.counts);
+      return out;
+    });
   }
 
  private:
@@ -57,7 +51,7 @@ MethodInfo view_samples_method() {
           .takes_distant = true,
           .gives_unoccluded = true,
           .converges = true,
-          .options = sampling_options(),
+          .options = dear_sampling_options(),
           .make = [](const Scene& objects) { return std::make_unique<ViewSamplesMethod>(objects); }};
 }
 

@@ -4,33 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "penumbra/mesh/error.h"
-#include "penumbra/render/visibility.h"
 #include "render/backprojection/light_masks.h"
-#include "tests/render/render_support.h"
+#include "tests/render/method_support.h"
 
 namespace penumbra {
 namespace {
 
+using testing::kUnitDisk;
+using testing::MethodUnderTest;
+using testing::RowOfReceivers;
 using testing::Values;
 
-Values seen(const std::vector<TriangleMesh>& casters, const LightShape& light, const Receivers& receivers,
-            const OptionValues& options = {}) {
-  return visibility(Casters(casters), light, receivers, {.method = "backprojection", .options = options})
-      .visibility;
-}
-
-const DiskLight kUnit{Vec3(0.0), {0, 0, 1}, 1.0};
-
-/// A floor at height 2 in the light's frame.
-struct Floor {
-  explicit Floor(double low, double high) {
-    for (double x = low; x < high; x += 0.1) points.emplace_back(x, 0.3, 2.0);
-    normals.assign(points.size(), {0, 0, -1});
-  }
-  Receivers receivers() const { return {.points = points, .normals = normals}; }
-  std::vector<Vec3> points, normals;
-};
+const MethodUnderTest seen("backprojection");
 
 TEST(LightMasks, AreTheSamplesInARectangle) {
   testing::Random random(2);
@@ -54,10 +39,10 @@ TEST(LightMasks, AreTheSamplesInARectangle) {
 }
 
 TEST(Backprojection, IsRightForAFlatCasterParallelToTheLight) {
-  const Floor floor(-1.4, 1.4);
+  const RowOfReceivers floor(-1.4, 1.4, 0.1);
   const std::vector<TriangleMesh> sheet{testing::rectangle(0, 6, -6, 6, 1.0)};
   const OptionValues fine{{"patch-map-size", std::uint64_t{256}}, {"mask-samples", std::uint64_t{1024}}};
-  const Values values = seen(sheet, kUnit, floor.receivers(), fine);
+  const Values values = seen(sheet, kUnitDisk, floor.receivers(), fine);
   for (std::size_t i = 0; i < values.size(); ++i)
     EXPECT_NEAR(values[i], half_plane_area(-floor.points[i].x), 0.03) << floor.points[i].x;
   const RectangleLight light{
@@ -73,7 +58,7 @@ TEST(Backprojection, FusesOccluders) {
                                       testing::rectangle(-0.02, 6, -6, 6, 1.2)};
   const std::vector<Vec3> points{{0, 0.3, 2}}, normals{{0, 0, -1}};
   const Receivers receivers{.points = points, .normals = normals};
-  EXPECT_NEAR(seen(two, kUnit, receivers,
+  EXPECT_NEAR(seen(two, kUnitDisk, receivers,
                    {{"patch-map-size", std::uint64_t{512}}, {"map-layers", std::uint64_t{2}}})[0],
               0.48, 0.03);
 }
@@ -84,9 +69,9 @@ TEST(Backprojection, LayersCloseLeaks) {
                                          testing::rectangle(-3, 3, -3, 3, 1.8)};
   const std::vector<Vec3> points{{0, 0, 2}}, normals{{0, 0, -1}};
   const Receivers receivers{.points = points, .normals = normals};
-  EXPECT_EQ(visibility(Casters(plates), kUnit, receivers).visibility[0], 0.0f) << "umbra";
-  EXPECT_GT(seen(plates, kUnit, receivers)[0], 0.5f);
-  EXPECT_EQ(seen(plates, kUnit, receivers, {{"map-layers", std::uint64_t{2}}})[0], 0.0f);
+  EXPECT_EQ(visibility(Casters(plates), kUnitDisk, receivers).visibility[0], 0.0f) << "umbra";
+  EXPECT_GT(seen(plates, kUnitDisk, receivers)[0], 0.5f);
+  EXPECT_EQ(seen(plates, kUnitDisk, receivers, {{"map-layers", std::uint64_t{2}}})[0], 0.0f);
 }
 
 // A slope towards the light has gaps between its texels.
@@ -96,33 +81,17 @@ TEST(Backprojection, FillsGaps) {
   const std::vector<Vec3> points{{0.3, 0.1, 2}}, normals{{0, 0, -1}};
   const Receivers receivers{.points = points, .normals = normals};
   const OptionValue coarse = std::uint64_t{64};
-  EXPECT_GT(
-      seen({slope}, kUnit, receivers, {{"patch-map-size", coarse}, {"gap-filling", std::string("off")}})[0],
-      0.01f);
-  EXPECT_EQ(seen({slope}, kUnit, receivers, {{"patch-map-size", coarse}})[0], 0.0f);
+  EXPECT_GT(seen({slope}, kUnitDisk, receivers,
+                 {{"patch-map-size", coarse}, {"gap-filling", std::string("off")}})[0],
+            0.01f);
+  EXPECT_EQ(seen({slope}, kUnitDisk, receivers, {{"patch-map-size", coarse}})[0], 0.0f);
 }
 
 TEST(Backprojection, EmptyScenesBadSettingsAndLightsAnywhere) {
-  const std::vector<Vec3> points{{0, 0.3, 2}, {0.1, 0.3, 2}, {0, 0, -1}};
-  const std::vector<std::int32_t> objects{-1, 0, 0};
-  EXPECT_EQ(seen({}, kUnit, {.points = points}), (Values{1, 1, 0})) << "the last is behind the light";
-  EXPECT_TRUE(seen({}, kUnit, {}).empty());
-  EXPECT_EQ(seen({testing::rectangle(-60, 60, -60, 60, 1.0)}, kUnit, {.points = points, .objects = objects}),
-            (Values{1, 0, 0}));
-  testing::Random random(3);
-  std::vector<Vec3> around;
-  for (int i = 0; i < 300; ++i) around.push_back(random.point(4.0));
-  const std::vector<TriangleMesh> box{make_box(Vec3(0.0), {1, 1, 1})};
-  for (const LightShape& light :
-       {LightShape(DiskLight{{0, 0.3, 0}, {0.2, -1, 0.1}, 0.4}),
-        LightShape(DiskLight{{0.9, 0.2, 0.1}, {0.3, -1, 0}, 0.5}),
-        LightShape(DiskLight{{0, 1e9, 0}, {0, -1, 0}, 1e8}),
-        LightShape(DiskLight{{0, 3, 0}, {0, -1, 0}, 30.0}), LightShape(DistantLight{{0.3, -1, 0.2}, 170.0})})
-    for (const float v : seen(box, light, {.points = around}, {{"patch-map-size", std::uint64_t{32}}}))
-      EXPECT_TRUE(v >= 0.0f && v <= 1.0f) << v;
-  for (const OptionValue& bad : {OptionValue(-1.0), OptionValue(std::uint64_t{100'000}), OptionValue("many")})
-    for (const char* option : {"patch-map-size", "map-layers", "mask-samples", "gap-filling", "map-bias"})
-      EXPECT_THROW(seen({}, kUnit, {.points = points}, {{option, bad}}), UsageError);
+  seen.expect_empty_scenes_are_lit();
+  seen.expect_lights_anywhere_do(300, {{"patch-map-size", std::uint64_t{32}}});
+  seen.expect_are_refused({"patch-map-size", "map-layers", "mask-samples", "gap-filling", "map-bias"},
+                          {-1.0, std::uint64_t{100'000}, "many"});
 }
 
 }  // namespace

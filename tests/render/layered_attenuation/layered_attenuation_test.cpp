@@ -5,17 +5,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "penumbra/mesh/error.h"
-#include "penumbra/render/visibility.h"
 #include "render/light/light_projection.h"
-#include "tests/render/render_support.h"
+#include "tests/render/method_support.h"
 
 namespace penumbra {
 namespace {
 
+using testing::kUnitDisk;
 using testing::Values;
-
-const DiskLight kUnit{Vec3(0.0), {0, 0, 1}, 1.0};
 
 /// A sheet in z = 1 with its edge at x = 0 over a floor in z = 2, and a row of pixels on the floor.
 struct SheetOverFloor {
@@ -37,7 +34,7 @@ struct SheetOverFloor {
 TEST(LayeredAttenuation, IsTheShareOfTheLightBesideAnEdge) {
   const SheetOverFloor scene;
   const OptionValues fine{{"light-views", std::uint64_t{256}}, {"attenuation-size", std::uint64_t{128}}};
-  const Values values = scene.seen(kUnit, fine);
+  const Values values = scene.seen(kUnitDisk, fine);
   for (std::size_t i = 0; i < values.size(); ++i)
     EXPECT_NEAR(values[i], half_plane_area(-scene.surface.position[i].x), 0.05)
         << scene.surface.position[i].x;
@@ -105,13 +102,13 @@ TEST(LayeredAttenuation, EmptyScenesBadSettingsAndLightsAnywhere) {
         LightShape(DiskLight{Vec3(0.0), {0, 0, 1}, 30.0}), LightShape(DistantLight{{0.3, 0.2, 1}, 120.0})})
     for (const float v : scene.seen(light, small)) EXPECT_TRUE(v >= 0.0f && v <= 1.0f) << v;
   scene.objects.pop_back();
-  EXPECT_EQ(scene.seen(kUnit, small), lit) << "nothing casts";
+  EXPECT_EQ(scene.seen(kUnitDisk, small), lit) << "nothing casts";
   for (const OptionValue& bad : {OptionValue(-1.0), OptionValue(std::uint64_t{100'000}), OptionValue("many")})
     for (const char* option : {"attenuation-size", "light-views", "layer-tolerance"})
-      EXPECT_THROW(scene.seen(kUnit, {{option, bad}}), UsageError);
+      EXPECT_THROW(scene.seen(kUnitDisk, {{option, bad}}), UsageError);
   const std::vector<Vec3> points{{0, 0, 2}};
   EXPECT_THROW(
-      visibility(Casters(scene.objects), kUnit, {.points = points}, {.method = "layered-attenuation"}),
+      visibility(Casters(scene.objects), kUnitDisk, {.points = points}, {.method = "layered-attenuation"}),
       UsageError)
       << "points on no surface";
 }

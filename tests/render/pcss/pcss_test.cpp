@@ -5,40 +5,27 @@
 #include <cmath>
 #include <cstdio>
 
-#include "penumbra/mesh/error.h"
-#include "penumbra/render/visibility.h"
-#include "tests/render/render_support.h"
+#include "tests/render/method_support.h"
 
 namespace penumbra {
 namespace {
 
+using testing::kUnitDisk;
+using testing::MethodUnderTest;
+using testing::RowOfReceivers;
 using testing::Values;
 
-Values seen(const std::vector<TriangleMesh>& casters, const LightShape& light, const Receivers& receivers,
-            const OptionValues& options = {}) {
-  return visibility(Casters(casters), light, receivers, {.method = "pcss", .options = options}).visibility;
-}
+const MethodUnderTest seen("pcss");
 
-const DiskLight kUnit{Vec3(0.0), {0, 0, 1}, 1.0};
 const OptionValues kMany{{"search-samples", std::uint64_t{1024}},
                          {"filter-samples", std::uint64_t{1024}},
                          {"map-size", std::uint64_t{4096}}};
 
-/// A floor at height 2 in the light's frame.
-struct Floor {
-  explicit Floor(double low, double high) {
-    for (double x = low; x < high; x += 0.05) points.emplace_back(x, 0.3, 2.0);
-    normals.assign(points.size(), {0, 0, -1});
-  }
-  Receivers receivers() const { return {.points = points, .normals = normals}; }
-  std::vector<Vec3> points, normals;
-};
-
 // One blocker at one depth, parallel to light and floor: the filter's window is the light, seen on the blocker's plane.
 TEST(Pcss, IsRightForAFlatBlockerParallelToTheLight) {
-  const Floor floor(-1.4, 1.4);
+  const RowOfReceivers floor(-1.4, 1.4);
   const std::vector<TriangleMesh> sheet{testing::rectangle(0, 6, -6, 6, 1.0)};
-  const Values values = seen(sheet, kUnit, floor.receivers(), kMany);
+  const Values values = seen(sheet, kUnitDisk, floor.receivers(), kMany);
   for (std::size_t i = 0; i < values.size(); ++i)
     EXPECT_NEAR(values[i], half_plane_area(-floor.points[i].x), 0.01) << floor.points[i].x;
   const RectangleLight light{
@@ -106,31 +93,15 @@ TEST(Pcss, SeesOneSurfaceATexel) {
                                          testing::rectangle(-1.5, 1.5, -1.5, 1.5, 1.8)};
   const std::vector<Vec3> points{{0, 0, 2}}, normals{{0, 0, -1}};
   const Receivers receivers{.points = points, .normals = normals};
-  EXPECT_EQ(visibility(Casters(plates), kUnit, receivers).visibility[0], 0.0f) << "umbra";
-  EXPECT_GT(seen(plates, kUnit, receivers)[0], 0.02f) << "a leak";
+  EXPECT_EQ(visibility(Casters(plates), kUnitDisk, receivers).visibility[0], 0.0f) << "umbra";
+  EXPECT_GT(seen(plates, kUnitDisk, receivers)[0], 0.02f) << "a leak";
 }
 
 TEST(Pcss, EmptyScenesBadSettingsAndLightsAnywhere) {
-  const std::vector<Vec3> points{{0, 0.3, 2}, {0.1, 0.3, 2}, {0, 0, -1}};
-  const std::vector<std::int32_t> objects{-1, 0, 0};
-  EXPECT_EQ(seen({}, kUnit, {.points = points}), (Values{1, 1, 0})) << "the last is behind the light";
-  EXPECT_TRUE(seen({}, kUnit, {}).empty());
-  EXPECT_EQ(seen({testing::rectangle(-60, 60, -60, 60, 1.0)}, kUnit, {.points = points, .objects = objects}),
-            (Values{1, 0, 0}));
-  testing::Random random(3);
-  std::vector<Vec3> around;
-  for (int i = 0; i < 2'000; ++i) around.push_back(random.point(4.0));
-  const std::vector<TriangleMesh> box{make_box(Vec3(0.0), {1, 1, 1})};
-  for (const LightShape& light :
-       {LightShape(DiskLight{{0, 0.3, 0}, {0.2, -1, 0.1}, 0.4}),
-        LightShape(DiskLight{{0.9, 0.2, 0.1}, {0.3, -1, 0}, 0.5}),
-        LightShape(DiskLight{{0, 1e9, 0}, {0, -1, 0}, 1e8}),
-        LightShape(DiskLight{{0, 3, 0}, {0, -1, 0}, 30.0}), LightShape(DistantLight{{0.3, -1, 0.2}, 170.0})})
-    for (const float v : seen(box, light, {.points = around})) EXPECT_TRUE(v >= 0.0f && v <= 1.0f) << v;
-  for (const OptionValue& bad : {OptionValue(std::uint64_t{0}), OptionValue("many")})
-    for (const char* option : {"map-size", "search-samples", "filter-samples"})
-      EXPECT_THROW(seen({}, kUnit, {.points = points}, {{option, bad}}), UsageError);
-  EXPECT_THROW(seen({}, kUnit, {.points = points}, {{"map-bias", -1.0}}), UsageError);
+  seen.expect_empty_scenes_are_lit();
+  seen.expect_lights_anywhere_do(2'000);
+  seen.expect_are_refused({"map-size", "search-samples", "filter-samples"}, {std::uint64_t{0}, "many"});
+  seen.expect_are_refused({"map-bias"}, {-1.0});
 }
 
 }  // namespace

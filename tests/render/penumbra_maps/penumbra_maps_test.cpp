@@ -4,37 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "penumbra/mesh/error.h"
-#include "penumbra/render/visibility.h"
-#include "tests/render/render_support.h"
+#include "tests/render/method_support.h"
 
 namespace penumbra {
 namespace {
 
+using testing::kUnitDisk;
+using testing::MethodUnderTest;
+using testing::RowOfReceivers;
 using testing::Values;
 
-Values seen(const std::vector<TriangleMesh>& casters, const LightShape& light, const Receivers& receivers,
-            const OptionValues& options = {}) {
-  return visibility(Casters(casters), light, receivers, {.method = "penumbra-maps", .options = options})
-      .visibility;
-}
-
-const DiskLight kUnit{Vec3(0.0), {0, 0, 1}, 1.0};
-
-/// Receivers at height 2 in the light's frame, on no mesh; normals towards the light.
-struct Row {
-  Row(double low, double high) {
-    for (double x = low; x < high; x += 0.05) points.emplace_back(x, 0.3, 2.0);
-    normals.assign(points.size(), {0, 0, -1});
-  }
-  Receivers receivers() const { return {.points = points, .normals = normals}; }
-  std::vector<Vec3> points, normals;
-};
+const MethodUnderTest seen("penumbra-maps");
 
 // The edge at x = 0 in z = 1: the penumbra in z = 2 reaches from -1 to 1, its outer half from 0 to -1.
 TEST(PenumbraMaps, OfAnEdgeAreLinearOutsideOfTheHardShadow) {
-  const Row row(-1.42, 1.4);
-  const Values values = seen({testing::rectangle(0, 6, -6, 6, 1.0)}, kUnit, row.receivers(),
+  const RowOfReceivers row(-1.42, 1.4);
+  const Values values = seen({testing::rectangle(0, 6, -6, 6, 1.0)}, kUnitDisk, row.receivers(),
                              {{"map-size", std::uint64_t{2048}}});
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double x = row.points[i].x;
@@ -50,7 +35,7 @@ TEST(PenumbraMaps, OfACornerAreRound) {
     points.emplace_back(-s * std::sqrt(0.5), -s * std::sqrt(0.5), 2.0);
   const std::vector<Vec3> normals(points.size(), {0, 0, -1});
   const Values values =
-      visibility(casters, kUnit, {.points = points, .normals = normals},
+      visibility(casters, kUnitDisk, {.points = points, .normals = normals},
                  {.method = "penumbra-maps", .options = {{"map-size", std::uint64_t{2048}}}})
           .visibility;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -81,26 +66,9 @@ TEST(PenumbraMaps, AreTooDarkOnTheWhole) {
 }
 
 TEST(PenumbraMaps, EmptyScenesBadSettingsAndLightsAnywhere) {
-  const std::vector<Vec3> points{{0, 0.3, 2}, {0.1, 0.3, 2}, {0, 0, -1}};
-  const std::vector<std::int32_t> objects{-1, 0, 0};
-  EXPECT_EQ(seen({}, kUnit, {.points = points}), (Values{1, 1, 0})) << "the last is behind the light";
-  EXPECT_TRUE(seen({}, kUnit, {}).empty());
-  EXPECT_EQ(seen({testing::rectangle(-60, 60, -60, 60, 1.0)}, kUnit, {.points = points, .objects = objects}),
-            (Values{1, 0, 0}));
-  testing::Random random(3);
-  std::vector<Vec3> around;
-  for (int i = 0; i < 2'000; ++i) around.push_back(random.point(4.0));
-  const std::vector<TriangleMesh> box{make_box(Vec3(0.0), {1, 1, 1})};
-  for (const LightShape& light :
-       {LightShape(DiskLight{{0, 0.3, 0}, {0.2, -1, 0.1}, 0.4}),
-        LightShape(DiskLight{{0.9, 0.2, 0.1}, {0.3, -1, 0}, 0.5}),
-        LightShape(DiskLight{{0, 1e9, 0}, {0, -1, 0}, 1e8}),
-        LightShape(DiskLight{{0, 3, 0}, {0, -1, 0}, 30.0}), LightShape(DistantLight{{0.3, -1, 0.2}, 170.0})})
-    for (const float v : seen(box, light, {.points = around}, {{"map-size", std::uint64_t{256}}}))
-      EXPECT_TRUE(v >= 0.0f && v <= 1.0f) << v;
-  for (const OptionValue& bad : {OptionValue(-1.0), OptionValue(std::uint64_t{100'000}), OptionValue("many")})
-    for (const char* option : {"map-size", "map-bias"})
-      EXPECT_THROW(seen({}, kUnit, {.points = points}, {{option, bad}}), UsageError);
+  seen.expect_empty_scenes_are_lit();
+  seen.expect_lights_anywhere_do(2'000, {{"map-size", std::uint64_t{256}}});
+  seen.expect_are_refused({"map-size", "map-bias"}, {-1.0, std::uint64_t{100'000}, "many"});
 }
 
 }  // namespace

@@ -3,9 +3,7 @@
 
 #include <cstdio>
 
-#include "penumbra/mesh/error.h"
-#include "penumbra/render/visibility.h"
-#include "tests/render/render_support.h"
+#include "tests/render/method_support.h"
 
 namespace penumbra {
 namespace {
@@ -139,17 +137,9 @@ TEST(ShadowVolumes, OfASquareHaveACapOfTwoFacesAndFourSides) {
 }
 
 TEST(ShadowVolumes, EmptyScenesAndBadSettings) {
-  const std::vector<Vec3> points{{0, 0.3, 2}, {0.1, 0.3, 2}, {0, 0, -1}};
-  const std::vector<std::int32_t> objects{-1, 0, 0};
-  const DiskLight light{Vec3(0.0), {0, 0, 1}, 1.0};
-  const Casters none(std::vector<TriangleMesh>{});
-  EXPECT_EQ(result(none, light, {.points = points}).visibility, (Values{1, 1, 0})) << "the last is behind";
-  EXPECT_TRUE(result(none, light, {}).visibility.empty());
-  const Casters roof(std::vector<TriangleMesh>{testing::rectangle(-60, 60, -60, 60, 1.0)});
-  EXPECT_EQ(result(roof, light, {.points = points, .objects = objects}).visibility, (Values{1, 0, 0}));
-  for (const char* option : {"volume-culling", "volume-clamping"})
-    for (const OptionValue& bad : {OptionValue(std::uint64_t{1}), OptionValue("maybe")})
-      EXPECT_THROW(result(none, light, {.points = points}, {{option, bad}}), UsageError);
+  const testing::MethodUnderTest seen("shadow-volumes");
+  seen.expect_empty_scenes_are_lit();
+  seen.expect_are_refused({"volume-culling", "volume-clamping"}, {std::uint64_t{1}, "maybe"});
 }
 
 }  // namespace

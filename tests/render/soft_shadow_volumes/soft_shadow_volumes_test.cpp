@@ -5,30 +5,25 @@
 #include <cmath>
 #include <cstdio>
 
-#include "penumbra/mesh/error.h"
-#include "penumbra/render/visibility.h"
-#include "tests/render/render_support.h"
+#include "tests/render/method_support.h"
 
 namespace penumbra {
 namespace {
 
+using testing::kUnitDisk;
 using testing::Random;
 using testing::Values;
 
+const testing::MethodUnderTest method("soft-shadow-volumes");
+
 Values seen(const std::vector<TriangleMesh>& casters, const LightShape& light, const Receivers& receivers,
             std::uint64_t splits = 1) {
-  return visibility(Casters(casters), light, receivers,
-                    {.method = "soft-shadow-volumes", .options = {{"light-splits", splits}}})
-      .visibility;
+  return method(casters, light, receivers, {{"light-splits", splits}});
 }
 
 Values exact(const std::vector<TriangleMesh>& casters, const LightShape& light, const Receivers& receivers) {
-  return visibility(Casters(casters), light, receivers,
-                    {.method = "silhouette", .options = {{"silhouette-tolerance", 0.0}}})
-      .visibility;
+  return testing::MethodUnderTest("silhouette")(casters, light, receivers, {{"silhouette-tolerance", 0.0}});
 }
-
-const DiskLight kUnit{Vec3(0.0), {0, 0, 1}, 1.0};
 
 /// Receivers at height 2 in a row; the edge of `sheet_from(0)` is projected to twice its place less that of the receiver.
 std::vector<Vec3> row(double low, double high) {
@@ -44,7 +39,7 @@ TEST(SoftShadowVolumes, AreExactBesideAnEdge) {
   // For one receiver the edge runs through the light's center, and along a border of patches.
   const std::vector<Vec3> points = row(-1.2, 1.2);
   for (const std::uint64_t splits : {1, 2, 3, 8}) {
-    const Values values = seen({sheet_from(0.0)}, kUnit, {.points = points}, splits);
+    const Values values = seen({sheet_from(0.0)}, kUnitDisk, {.points = points}, splits);
     for (std::size_t i = 0; i < points.size(); ++i)
       EXPECT_NEAR(values[i], half_plane_area(-points[i].x), 1e-6) << points[i].x << ", " << splits;
   }
@@ -78,7 +73,8 @@ TEST(SoftShadowVolumes, AreExactForOneConvexCasterWithOneSilhouette) {
       for (const std::uint64_t splits : {1, 3}) {
         Receivers receivers{.points = points};
         if (with_normals) receivers.normals = normals;
-        const Values ours = seen(casters, kUnit, receivers, splits), truth = exact(casters, kUnit, receivers);
+        const Values ours = seen(casters, kUnitDisk, receivers, splits),
+                     truth = exact(casters, kUnitDisk, receivers);
         std::size_t partly = 0;
         double most = 0.0;
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -96,12 +92,12 @@ TEST(SoftShadowVolumes, AreExactForOneConvexCasterWithOneSilhouette) {
 TEST(SoftShadowVolumes, AddOverlap) {
   const std::vector<TriangleMesh> two{sheet_from(0.0), testing::rectangle(0.0, 60, -60, 60, 1.00001)};
   const std::vector<Vec3> points = row(-0.9, 0.9);
-  const Values ours = seen(two, kUnit, {.points = points});
+  const Values ours = seen(two, kUnitDisk, {.points = points});
   for (std::size_t i = 0; i < points.size(); ++i)
     EXPECT_NEAR(ours[i], std::max(0.0, 2.0 * half_plane_area(-points[i].x) - 1.0), 1e-4) << points[i].x;
   const std::vector<Vec3> middle{{0.0, 0.3, 2.0}};
-  EXPECT_NEAR(exact(two, kUnit, {.points = middle})[0], 0.5, 1e-4);
-  EXPECT_NEAR(seen(two, kUnit, {.points = middle}, 8)[0], 0.5, 0.1) << "patches are lit, or hidden twice";
+  EXPECT_NEAR(exact(two, kUnitDisk, {.points = middle})[0], 0.5, 1e-4);
+  EXPECT_NEAR(seen(two, kUnitDisk, {.points = middle}, 8)[0], 0.5, 0.1) << "patches are lit, or hidden twice";
 }
 
 double rmse(const Values& a, const Values& truth) {
@@ -190,17 +186,8 @@ TEST(SoftShadowVolumes, LightsBehindInsideAndFar) {
 }
 
 TEST(SoftShadowVolumes, EmptyScenesAndBadSettings) {
-  const std::vector<Vec3> points{{0, 0.3, 2}, {0.1, 0.3, 2}};
-  const std::vector<std::int32_t> objects{-1, 0};
-  EXPECT_EQ(seen({}, kUnit, {.points = points}), (Values{1, 1}));
-  EXPECT_TRUE(seen({}, kUnit, {}).empty());
-  EXPECT_EQ(seen({testing::rectangle(-60, 60, -60, 60, 1.0)}, kUnit, {.points = points, .objects = objects}),
-            (Values{1, 0}));
-  for (const OptionValue& bad :
-       {OptionValue(std::uint64_t{0}), OptionValue(std::uint64_t{9}), OptionValue("many")})
-    EXPECT_THROW(visibility(Casters(std::vector<TriangleMesh>{}), kUnit, {.points = points},
-                            {.method = "soft-shadow-volumes", .options = {{"light-splits", bad}}}),
-                 UsageError);
+  method.expect_empty_scenes_are_lit();
+  method.expect_are_refused({"light-splits"}, {std::uint64_t{0}, std::uint64_t{9}, "many"});
 }
 
 TEST(SoftShadowVolumes, WithoutTheHorizonIsWithoutNormals) {
@@ -213,8 +200,9 @@ TEST(SoftShadowVolumes, WithoutTheHorizonIsWithoutNormals) {
   const Casters casters(std::vector<TriangleMesh>{sheet_from(0.0)});
   VisibilityOptions options{.method = "soft-shadow-volumes"};
   options.with_unoccluded = true;
-  const Values with = visibility(casters, kUnit, {.points = points, .normals = normals}, options).unoccluded;
-  EXPECT_EQ(with, visibility(casters, kUnit, {.points = points}, options).visibility);
+  const Values with =
+      visibility(casters, kUnitDisk, {.points = points, .normals = normals}, options).unoccluded;
+  EXPECT_EQ(with, visibility(casters, kUnitDisk, {.points = points}, options).visibility);
 }
 
 }  // namespace
