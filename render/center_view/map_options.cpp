@@ -21,13 +21,13 @@ std::vector<OptionSchema> bias_options() {
        .unit = "texels",
        .help =
            "What is not this much nearer to the light hides nothing: against shadows of a surface on itself",
-       .steps = std::vector<OptionValue>{0.5, 1.0, 4.0}},
+       .steps = std::vector<OptionValue>{}},
       {.name = "slope-bias",
        .domain = RealRange{0.0, 1000.0},
        .usual = usual.slope,
        .unit = "texels",
        .help = "The same, times the tangent of the slope at which the receiver's surface lies in the map",
-       .steps = std::vector<OptionValue>{0.0, 1.0, 4.0}}};
+       .steps = std::vector<OptionValue>{}}};
 }
 
 MapBias bias_of(const OptionValues& values) {

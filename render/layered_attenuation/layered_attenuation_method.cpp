@@ -45,7 +45,7 @@ std::vector<OptionSchema> options() {
            .usual = usual.tolerance,
            .unit = "texels",
            .help = "Surfaces whose heights differ by less are one layer",
-           .steps = std::vector<OptionValue>{1.0, 2.0, 8.0}}};
+           .steps = std::vector<OptionValue>{}}};
 }
 
 }  // namespace

@@ -85,6 +85,13 @@ std::vector<OptionSchema> sampling_options() {
            .steps = std::vector<OptionValue>{}}};
 }
 
+std::vector<OptionSchema> dear_sampling_options() {
+  std::vector<OptionSchema> options = sampling_options();
+  options.front().steps =
+      std::vector<OptionValue>{std::uint64_t{64}, std::uint64_t{256}, std::uint64_t{1024}};
+  return options;
+}
+
 ReferenceOptions sampling_of(const OptionValues& options) {
   return {.samples = static_cast<int>(integer_of(options, "samples")), .seed = integer_of(options, "seed")};
 }

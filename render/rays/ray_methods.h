@@ -14,6 +14,8 @@ MethodInfo no_shadow_method();
 
 /// The options samples and seed, for every method that traces stratified rays.
 std::vector<OptionSchema> sampling_options();
+/// The same for methods that cost far more with many samples: a study tries 64, 256 and 1,024.
+std::vector<OptionSchema> dear_sampling_options();
 struct ReferenceOptions;
 ReferenceOptions sampling_of(const OptionValues& options);
 

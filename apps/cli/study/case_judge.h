@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/cli/comparison.h"
-#include "apps/cli/study/measure.h"
+#include "apps/cli/study/measure/measure.h"
 #include "apps/cli/study/study_case.h"
 
 namespace penumbra::apps {

@@ -59,7 +59,8 @@ CaseStudy::CaseStudy(const StudyOptions& options, std::span<const Peer> peers,
       case_(std::move(seen)),
       digest_(case_.digest()),
       rows_(rows_of(case_, options, peers)),
-      judge_(case_, options.judge) {}
+      judge_(case_, options.judge),
+      too_long_(1e3 * options.longest_frame_s) {}
 
 void CaseStudy::begin() {
   renderer_ = std::make_unique<Renderer>(case_.scene, options_.judge.threads);
@@ -125,11 +126,13 @@ json CaseStudy::row_of(const Setting& setting, const Measured& measured, UnitRes
 }
 
 void CaseStudy::measure_methods(std::span<const Setting> settings, UnitResult& result) {
-  const std::vector<Measured> measured = measure_in_turn(*renderer_, case_.view, settings, options_.rounds);
+  const std::vector<Measured> measured =
+      measure_in_turn(*renderer_, case_.view, settings, options_.rounds, too_long_);
   for (std::size_t k = 0; k < settings.size(); ++k) {
     json row = row_of(settings[k], measured[k], result);
+    const bool by_default = settings[k].varied.empty() && measured[k].refused.empty();
     const double median = quartiles_of(measured[k].frames).median;
-    if (options_.memory && !scene_path_.empty() && measured[k].refused.empty() && median < kMostForMemory)
+    if (options_.memory && !scene_path_.empty() && by_default && median < kMostForMemory)
       if (const auto peak = peak_memory(scene_path_.string(), case_.view, settings[k]))
         row["peak_mib"] = *peak;
     result.rows.push_back(rounded(std::move(row)));

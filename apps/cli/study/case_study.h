@@ -13,6 +13,7 @@
 #include "apps/cli/study/settings.h"
 #include "apps/cli/study/study.h"
 #include "apps/cli/study/study_unit.h"
+#include "apps/cli/study/measure/too_long.h"
 
 namespace penumbra::apps {
 
@@ -41,6 +42,7 @@ class CaseStudy {
   const std::vector<CaseRow> rows_;
   std::unique_ptr<Renderer> renderer_;
   CaseJudge judge_;
+  TooLong too_long_;
   LitPicture lit_;
   /// What is to be written besides rows.
   nlohmann::json about_;

@@ -20,11 +20,13 @@ struct StudyOptions {
   std::vector<std::string> methods{};
   StudyView view{};
   /// Timed frames a row.
-  int rounds = 5;
+  int rounds = 3;
+  /// Settings are left out that are dearer than one whose frame took longer than so many seconds; 0: none is.
+  double longest_frame_s = 20.0;
   JudgeOptions judge{};
   /// Fewer settings (settings_of).
   bool quick = false;
-  /// Whether each row's memory is measured, by a program of its own.
+  /// Whether the memory of each method's defaults is measured, by a program of its own.
   bool memory = true;
   /// Also how cost grows: of the first scene with its light and with the picture's size, and of a sphere with its faces.
   bool growth = false;

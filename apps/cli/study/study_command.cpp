@@ -24,7 +24,7 @@ call measures what is missing. Times are milliseconds, errors are of the fractio
 
 // Errors at such a size and with so few rays are for a first look.
 constexpr StudyView kQuickView{.width = 320, .height = 240};
-constexpr int kQuickSamples = 1'024, kQuickDoubleSamples = 256, kQuickFrames = 3;
+constexpr int kQuickSamples = 1'024, kQuickDoubleSamples = 256;
 constexpr std::size_t kQuickDoublePixels = 300;
 
 struct Arguments {
@@ -67,7 +67,6 @@ void run(Arguments& arguments, const CLI::App& command) {
     study.judge.double_pixels = kQuickDoublePixels;
     study.judge.double_samples = kQuickDoubleSamples;
     if (command.count("--samples") == 0) study.judge.samples = kQuickSamples;
-    if (command.count("--frames") == 0) study.rounds = kQuickFrames;
   }
   if (!arguments.size.empty()) {
     const PixelPair size = parse_size(arguments.size);
@@ -97,9 +96,8 @@ void add_study_command(CLI::App& app) {
   command.add_option("-o,--output", study.output, "Folder of the rows, pictures and page; made if missing")
       ->required()
       ->type_name("DIR");
-  command.add_flag(
-      "--quick", study.quick,
-      "For a first look: 320x240, few settings, 3 frames, 1,024 rays a reference, few pixels in double");
+  command.add_flag("--quick", study.quick,
+                   "For a first look: 320x240, few settings, 1,024 rays a reference, few pixels in double");
   command.add_option("--methods", study.methods, "Only these methods, divided by commas")
       ->delimiter(',')
       ->type_name("NAMES");
@@ -107,11 +105,17 @@ void add_study_command(CLI::App& app) {
   command.add_option("--frames", study.rounds, "Timed frames a row")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command
+      .add_option("--longest-frame", study.longest_frame_s,
+                  "Leave out settings that are dearer than one whose frame took longer; 0: none is left out")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("SECONDS")
+      ->capture_default_str();
   command.add_option("--samples", study.judge.samples, "Rays a pixel of each of the two references")
       ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str();
   command.add_flag("!--no-memory", study.memory,
-                   "Do not measure memory, for which each row draws a frame alone");
+                   "Do not measure memory, for which each method's defaults draw a frame alone");
   command.add_flag("--growth", study.growth,
                    "Also how time grows: with light and size of the first scene, with the faces of a sphere");
   command.add_flag(

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/cli/study/measure.h"
+#include "apps/cli/study/measure/measure.h"
 #include "apps/cli/study/settings.h"
 #include "apps/cli/study/study_record.h"
 #include "penumbra/mesh/error.h"

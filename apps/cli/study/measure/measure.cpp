@@ -1,7 +1,9 @@
-#include "apps/cli/study/measure.h"
+#include "apps/cli/study/measure/measure.h"
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "penumbra/mesh/error.h"
 
@@ -9,7 +11,7 @@ namespace penumbra::apps {
 namespace {
 
 constexpr double kLongFrame = 150.0;    // ms; caches of another setting do not matter to it
-constexpr double kDearFrame = 2'000.0;  // ms; one timed frame says enough
+constexpr double kDearFrame = 2'000.0;  // ms; the first frame says enough
 constexpr double kRestless = 0.1;       // quartiles further apart than this part of the median
 constexpr int kMostRounds = 3;          // times as many rounds as asked for, while the machine is busy
 
@@ -22,7 +24,7 @@ RenderResult draw(Renderer& renderer, const RenderOptions& options) {
   return renderer.render(options);
 }
 
-/// The warm-up frame, and what it shows.
+/// The first frame and its times, and what it shows.
 Measured begin(Renderer& renderer, const RenderOptions& options) {
   Measured out;
   try {
@@ -34,6 +36,7 @@ Measured begin(Renderer& renderer, const RenderOptions& options) {
     out.counts = std::move(frame.counts);
     out.image = std::move(result.image);
     out.frames = {result.frame_ms};
+    out.stages = std::move(result.stages);
   } catch (const UsageError& e) {
     out.refused = e.what();
   }
@@ -70,6 +73,66 @@ bool are_restless(const std::vector<double>& ratios) {
   return q.high - q.low > kRestless * q.median;
 }
 
+/// The frame of the default method beside which others are timed; nothing where it does not take the light.
+class Partner {
+ public:
+  Partner(Renderer& renderer, const StudyView& view)
+      : renderer_(renderer),
+        options_{.method = kDefaultMethod, .options = {}, .width = view.width, .height = view.height},
+        is_there_(takes(method_named(kDefaultMethod), renderer.scene().lights.front().shape)) {}
+
+  std::optional<double> frame_ms() const {
+    return is_there_ ? std::optional(timed_frame(renderer_, options_, 0.0).frame_ms) : std::nullopt;
+  }
+
+ private:
+  Renderer& renderer_;
+  RenderOptions options_;
+  bool is_there_;
+};
+
+/// One setting among others.
+class Turn {
+ public:
+  Turn(Renderer& renderer, RenderOptions options, const Partner& partner)
+      : options_(std::move(options)), measured_(begin(renderer, options_)) {
+    expected_ms_ = measured_.frames.empty() ? 0.0 : measured_.frames.front();
+    measured_.frames.clear();
+    const StageTimes stages = std::exchange(measured_.stages, {});
+    if (expected_ms_ > kDearFrame) add(expected_ms_, stages, partner.frame_ms());
+  }
+
+  /// A setting that is left out.
+  explicit Turn(std::string why) { measured_.refused = std::move(why); }
+
+  /// Of the first frame; 0 where there is none.
+  double expected_ms() const { return expected_ms_; }
+  bool is_due(int round, int rounds) const {
+    if (!measured_.refused.empty() || expected_ms_ > kDearFrame) return false;
+    return round < rounds || are_restless(measured_.over_default);
+  }
+  void draw(Renderer& renderer, std::optional<double> partner_ms) {
+    const RenderResult frame = timed_frame(renderer, options_, expected_ms_);
+    add(frame.frame_ms, frame.stages, partner_ms);
+  }
+  Measured end() {
+    measured_.stages = stages_.medians();
+    return std::move(measured_);
+  }
+
+ private:
+  void add(double frame_ms, const StageTimes& stages, std::optional<double> partner_ms) {
+    measured_.frames.push_back(frame_ms);
+    if (partner_ms) measured_.over_default.push_back(frame_ms / *partner_ms);
+    stages_.add(stages);
+  }
+
+  RenderOptions options_;
+  Measured measured_;
+  double expected_ms_ = 0.0;
+  StageTable stages_;
+};
+
 }  // namespace
 
 Quartiles quartiles_of(std::vector<double> values) {
@@ -80,37 +143,27 @@ Quartiles quartiles_of(std::vector<double> values) {
 }
 
 std::vector<Measured> measure_in_turn(Renderer& renderer, const StudyView& view,
-                                      std::span<const Setting> settings, int rounds) {
-  std::vector<Measured> out;
-  std::vector<double> expected;
+                                      std::span<const Setting> settings, int rounds, TooLong& too_long) {
+  const Partner partner(renderer, view);
+  std::vector<Turn> turns;
   for (const Setting& setting : settings) {
-    out.push_back(begin(renderer, options_of(setting, view)));
-    expected.push_back(out.back().frames.empty() ? 0.0 : out.back().frames.front());
-    out.back().frames.clear();
-  }
-  const RenderOptions partner = {
-      .method = kDefaultMethod, .options = {}, .width = view.width, .height = view.height};
-  const bool with_partner = takes(method_named(kDefaultMethod), renderer.scene().lights.front().shape);
-  std::vector<StageTable> stages(settings.size());
-  const auto is_measured = [&](std::size_t k, int round) {
-    if (!out[k].refused.empty()) return false;
-    if (round == 0) return true;
-    return expected[k] <= kDearFrame && (round < rounds || are_restless(out[k].over_default));
-  };
-  for (int round = 0; round < kMostRounds * rounds; ++round) {
-    std::vector<std::size_t> measured;
-    for (std::size_t k = 0; k < settings.size(); ++k)
-      if (is_measured(k, round)) measured.push_back(k);
-    if (measured.empty()) break;
-    const double unit = with_partner ? timed_frame(renderer, partner, 0.0).frame_ms : 0.0;
-    for (const std::size_t k : measured) {
-      const RenderResult frame = timed_frame(renderer, options_of(settings[k], view), expected[k]);
-      out[k].frames.push_back(frame.frame_ms);
-      if (with_partner) out[k].over_default.push_back(frame.frame_ms / unit);
-      stages[k].add(frame.stages);
+    if (const auto why = too_long.why_not(setting)) {
+      turns.emplace_back(*why);
+      continue;
     }
+    turns.emplace_back(renderer, options_of(setting, view), partner);
+    too_long.saw(setting, turns.back().expected_ms());
   }
-  for (std::size_t k = 0; k < settings.size(); ++k) out[k].stages = stages[k].medians();
+  for (int round = 0; round < kMostRounds * rounds; ++round) {
+    std::vector<Turn*> due;
+    for (Turn& turn : turns)
+      if (turn.is_due(round, rounds)) due.push_back(&turn);
+    if (due.empty()) break;
+    const std::optional<double> partner_ms = partner.frame_ms();
+    for (Turn* turn : due) turn->draw(renderer, partner_ms);
+  }
+  std::vector<Measured> out;
+  for (Turn& turn : turns) out.push_back(turn.end());
   return out;
 }
 

@@ -2,7 +2,8 @@
 //
 // What is compared is run in turn: in every round each setting draws one frame, and the default method one beside it, so
 // that a busy minute falls on all of them and ratios are of pairs. Before a timed frame of less than 150 ms
-// the same frame is drawn once without being timed, since buffers and caches were another setting's. Of a frame of more than 2 s one is timed.
+// the same frame is drawn once without being timed, since buffers and caches were another setting's. Of frames of more than
+// 2 s the first is the one that is timed.
 #pragma once
 
 #include <optional>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cli/study/measure/too_long.h"
 #include "apps/cli/study/settings.h"
 #include "apps/cli/study/study_case.h"
 #include "penumbra/render/renderer.h"
@@ -28,7 +30,7 @@ struct Measured {
   std::vector<std::int8_t> region;
   std::string renderer;
   Counts counts;
-  /// Set where the method refused: its message. All else is then empty.
+  /// Set where the method refused, or the setting was left out (too_long.h): why. All else is then empty.
   std::string refused;
 };
 
@@ -38,10 +40,10 @@ struct Quartiles {
 };
 Quartiles quartiles_of(std::vector<double> values);
 
-/// One warm-up frame each, then `rounds` rounds; up to three times as many of those whose ratios to the default method's frame still differ,
+/// One warm-up frame each, then `rounds` rounds, where the warm-up frame took less than 2 s; up to three times as many of those whose ratios to the default method's frame still differ,
 /// between their quartiles, by more than a tenth of the median. `renderer` has the case's scene. Throws Cancelled.
 std::vector<Measured> measure_in_turn(Renderer& renderer, const StudyView& view,
-                                      std::span<const Setting> settings, int rounds);
+                                      std::span<const Setting> settings, int rounds, TooLong& too_long);
 
 /// Largest resident size, in MiB, of a program of its own that draws one frame: `penumbra render` with this scene, size and
 /// setting. Nothing where that program could not be run.

@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/cli/study/measure.h"
+#include "apps/cli/study/measure/measure.h"
 #include "apps/cli/study/run_program.h"
 
 namespace penumbra::apps {

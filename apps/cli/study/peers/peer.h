@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/study/measure.h"
+#include "apps/cli/study/measure/measure.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {

@@ -107,6 +107,16 @@ double trace(const fs::path& scene, const fs::path& picture, const PeerCase& giv
   return trace_ms(*log);
 }
 
+/// Milliseconds of as many renderings as take some seconds, at most the case's rounds; of the first one where it takes longer.
+std::vector<double> trace_some(const fs::path& scene, const fs::path& picture, const PeerCase& given) {
+  constexpr double kMostMilliseconds = 4'000.0;
+  std::vector<double> frames{trace(scene, picture, given)};
+  const auto fit = static_cast<std::size_t>(kMostMilliseconds / frames.front());
+  while (frames.size() < std::min<std::size_t>(static_cast<std::size_t>(given.rounds), fit))
+    frames.push_back(trace(scene, picture, given));
+  return frames;
+}
+
 std::string missing() {
   return run_program("povray", {"povray", "--version"}, Stream::kError)
              ? ""
@@ -133,8 +143,7 @@ std::vector<Measured> measure(const PeerCase& given, std::span<const Setting> se
   for (const Setting& setting : settings) {
     const auto side = static_cast<int>(std::lround(std::sqrt(integer_of(setting.options, "samples"))));
     write_scene(scene, given.seen, light, side, true);
-    std::vector<double> frames;
-    for (int round = 0; round < given.rounds; ++round) frames.push_back(trace(scene, picture, given));
+    std::vector<double> frames = trace_some(scene, picture, given);
     out.push_back(peer_result(given, visibility_of_ratio(read_ppm(picture, pixels), lit, whole),
                               std::move(frames), "trace", "POV-Ray"));
   }
