@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/plan/cost_model_fit.h"
+#include "render/plan/sample/ray_error.h"
 
 namespace penumbra::detail {
 namespace {
@@ -25,11 +26,11 @@ double mean(const SampledFacts& sampled, const Number& number) {
 
 /// Of a receiver with so many rays.
 double nanoseconds_of_rays(const CasterTotals& casters, const SampledPart& part, int samples) {
+  const double both = std::sqrt(part.boxes * part.edges);
   const double ray = fit::kRay + fit::kRayLogFaces * std::log2(1.0 + casters.faces) +
                      fit::kRayRootOfBoxes * std::sqrt(part.boxes) +
-                     fit::kRayRootOfEdges * std::sqrt(part.edges) +
-                     fit::kRayRootOfBoth * std::sqrt(part.boxes * part.edges);
-  return fit::kRayReceiver + samples * ray;
+                     fit::kRayRootOfEdges * std::sqrt(part.edges) + fit::kRayRootOfBoth * both;
+  return fit::kRayReceiver + fit::kRayReceiverRootOfBoth * both + samples * ray;
 }
 
 /// Of a receiver whose area is integrated.
@@ -61,15 +62,6 @@ Few few_of(const SampledPart& part, int up_to) {
   return {count / static_cast<double>(part.edges_each.size()), all > 0.0 ? few / all : 1.0};
 }
 
-/// The share of the penumbra's receivers that rays are traced for. One receiver more than those that were looked at is taken to
-/// be one of them: that none of some dozens is does not say that none of thousands is.
-double traced_of(const SampledPart& part, int areas_up_to) {
-  const double few = few_of(part, areas_up_to).share;
-  const auto looked_at = static_cast<double>(part.edges_each.size());
-  if (looked_at < 1.0) return 1.0 - few;
-  return ((1.0 - few) * looked_at + 1.0) / (looked_at + 1.0);
-}
-
 double root_of_edges_of(const SampledPart& part) {
   return std::sqrt(part.edges);
 }
@@ -79,8 +71,6 @@ double boxes_of(const SampledPart& part) {
 
 // Up to so many edges are integrated exactly, without rows (docs/methods/silhouette.md).
 constexpr double kFewEdges = 20.0;
-// As RaysMethod: a receiver with more edges in its list is left to rays.
-constexpr double kEdgesOfRay = 24.0;
 
 Cost in_milliseconds(double frame, double setup) {
   return {frame * kMillisecondsPerNanosecond, setup * kMillisecondsPerNanosecond};
@@ -134,7 +124,7 @@ Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
   };
   const double rest = open(s.hidden, std::min(1.0, s.hidden.edges)) + open(s.lit, std::min(1.0, s.lit.edges));
   const double looked_at =
-      mean(s, [&](const SampledPart& part) { return std::min(part.edges, kEdgesOfRay * samples); });
+      mean(s, [&](const SampledPart& part) { return std::min(part.edges, double{kEdgesOfRay} * samples); });
   return in_milliseconds(
       reached(facts) * (fit::kRaysReceiver + fit::kRaysRootOfEdges * mean(s, root_of_edges_of) +
                         fit::kRaysEdge * looked_at + fit::kRaysBox * mean(s, boxes_of) +
@@ -164,23 +154,28 @@ double error_of_silhouette(const LightFacts& facts) {
 }
 
 double error_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
-  const double n = samples;
-  const double by_chance = facts.sampled.variance / n,
-               by_strata = facts.sampled.boundary / (n * std::sqrt(n));
-  if (!(by_chance + by_strata > 0.0)) return 0.0;
-  const double traced = traced_of(facts.sampled.penumbra, areas_up_to);
   const double of_areas = areas_up_to > 0 ? error_of_silhouette(facts) : 0.0;
-  return std::hypot(of_areas,
-                    fit::kErrorOfRays * std::sqrt(traced * by_chance * by_strata / (by_chance + by_strata)));
+  return std::hypot(of_areas, std::sqrt(squared_error_kept(facts.sampled, samples, areas_up_to)));
 }
 
 int rays_for(const LightFacts& facts, double error, bool with_areas) {
-  constexpr int kLeast = 2, kMost = 256;  // a side
-  for (int side = kLeast; side < kMost; ++side)
-    for (const int samples : {side * side, side * (side + 1)})
-      if (error_of_rays(facts, samples, with_areas ? areas_up_to(facts, samples) : 0) <= error)
-        return samples;
-  return kMost * kMost;
+  constexpr int kLeast = 4, kMost = 512;  // halves of a side
+  const auto samples_of = [](int k) { return (k / 2) * (k - k / 2); };
+  const auto keeps = [&](int k) {
+    const int samples = samples_of(k);
+    return error_of_rays(facts, samples, with_areas ? areas_up_to(facts, samples) : 0) <= error;
+  };
+  int low = kLeast - 1, high = kMost;  // errors fall with the number of rays
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (keeps(middle) ? high : low) = middle;
+  }
+  return samples_of(high);
+}
+
+double milliseconds_in_penumbra(const LightFacts& facts, int samples) {
+  return kMillisecondsPerNanosecond *
+         nanoseconds_of_rays(totals_of_reaching(facts), facts.sampled.penumbra, samples);
 }
 
 }  // namespace penumbra::detail

@@ -31,14 +31,15 @@ Cost cost_of_silhouette(const LightFacts& facts, bool merges = true);
 /// `areas_up_to`: the option of that name.
 Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to);
 Cost cost_of_reference(const LightFacts& facts, int samples);
+/// Milliseconds that so many rays take at one receiver in penumbra.
+double milliseconds_in_penumbra(const LightFacts& facts, int samples);
 
 /// So many edges before the light take as long to integrate as so many rays to trace, about; 0 where that is hardly any.
 int areas_up_to(const LightFacts& facts, int samples);
 
 /// RMSE of V over the penumbra.
 double error_of_silhouette(const LightFacts& facts);
-/// Of n stratified rays: 1 / e² = n / v + n^(3/2) / b (SampledFacts), times what nineteen of twenty scenes keep; but
-/// no error of rays where there are areas.
+/// Of n stratified rays by pilots (sample/ray_error.h), which nineteen of twenty scenes keep; but no error of rays where there are areas.
 double error_of_rays(const LightFacts& facts, int samples, int areas_up_to = 0);
 /// The least number of rays for that error, 4 to 65,536, of those whose strata make a square or nearly one. `with_areas`: as many
 /// as areas_up_to() says.

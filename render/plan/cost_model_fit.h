@@ -12,6 +12,7 @@ inline constexpr double kSilhouetteRootOfEdges = 0;
 inline constexpr double kSilhouetteLength = 43.67;
 inline constexpr double kSilhouetteBox = 22.31;
 inline constexpr double kRayReceiver = 75.95;
+inline constexpr double kRayReceiverRootOfBoth = 0;
 inline constexpr double kRay = 2.591;
 inline constexpr double kRayLogFaces = 0.3694;
 inline constexpr double kRayRootOfBoxes = 2.393;
@@ -28,9 +29,7 @@ inline constexpr double kRaysOpenRest = 0.537;
 inline constexpr double kHierarchyEdge = 145.8;
 inline constexpr double kMergingEdge = 0;
 inline constexpr double kMergingEdgeTimesRoot = 0.9158;
-// RMSE of V over the penumbra; kErrorOfRays: a factor.
 inline constexpr double kErrorOfFew = 0.000428;
 inline constexpr double kErrorOfMany = 0.000836;
-inline constexpr double kErrorOfRays = 1.36;
 
 }  // namespace penumbra::detail::fit

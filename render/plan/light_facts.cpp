@@ -1,10 +1,16 @@
 #include "render/plan/light_facts.h"
 
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <array>
+#include <bit>
+#include <span>
 
 #include "render/plan/light_sides.h"
 #include "render/plan/penumbra_width.h"
-#include "render/plan/sampled_facts.h"
+#include "render/plan/sample/sampled_facts.h"
+#include "render/plan/second_pilot.h"
+#include "render/support/kd_order.h"
 
 namespace penumbra::detail {
 namespace {
@@ -14,6 +20,13 @@ CircularLight circle_around(const LightShape& light) {
   if (const auto* distant = std::get_if<DistantLight>(&light)) return *distant;
   return disk_around(light);
 }
+
+/// A caster by the middle of its box.
+struct PlacedCaster {
+  std::array<double, 3> at;
+  std::size_t index;
+  Bounds box;
+};
 
 /// How one light lies to receivers and casters.
 class Reach {
@@ -30,7 +43,36 @@ class Reach {
     return std::min(boxes_.count_passing(passes), boxes_.present() - 1);
   }
 
-  CasterReach of_caster(const Bounds& box) const {
+  bool is_dark(std::uint32_t index) const {
+    ReceiverBox one;
+    one.points.add(receivers_.points[index]);
+    if (receivers_.has_normals()) one.normals.add(receivers_.normals[index]);
+    one.count = 1;
+    return sides_.is_dark(one, horizon_);
+  }
+
+  /// Of casters that lie close together: of all at once where that is enough. In the order of order_by_place.
+  void of_casters(std::span<const PlacedCaster> some, std::vector<CasterFacts>& casters) const {
+    if (some.empty()) return;
+    Bounds box;
+    for (const PlacedCaster& each : some) box.add(each.box);
+    const CasterReach reach = of_box(box);
+    if (reach != CasterReach::kMayReach || some.size() == 1) {
+      for (const PlacedCaster& each : some) casters[each.index].reach = reach;
+      return;
+    }
+    constexpr std::size_t kOneTask = 16;
+    const std::size_t middle = std::bit_floor(some.size() - 1);
+    const auto first = [&] { of_casters(some.first(middle), casters); };
+    const auto rest = [&] { of_casters(some.subspan(middle), casters); };
+    if (some.size() > kOneTask)
+      tbb::parallel_invoke(first, rest);
+    else
+      first(), rest();
+  }
+
+ private:
+  CasterReach of_box(const Bounds& box) const {
     if (sides_.is_behind(box)) return CasterReach::kBehindLight;
     const bool reaches = boxes_.find(
         receivers_,
@@ -44,20 +86,28 @@ class Reach {
     return reaches ? CasterReach::kMayReach : CasterReach::kMissesReceivers;
   }
 
-  bool is_dark(std::uint32_t index) const {
-    ReceiverBox one;
-    one.points.add(receivers_.points[index]);
-    if (receivers_.has_normals()) one.normals.add(receivers_.normals[index]);
-    one.count = 1;
-    return sides_.is_dark(one, horizon_);
-  }
-
- private:
   const LightSides sides_;
   const Receivers& receivers_;
   const ReceiverBoxes& boxes_;
   const bool horizon_;
 };
+
+void find_casters(const Scene& objects, const Reach& reach, std::vector<CasterFacts>& casters) {
+  std::vector<PlacedCaster> placed;
+  for (std::size_t i = 0; i < objects.objects.size(); ++i) {
+    const SceneObject& object = objects.objects[i];
+    if (!object.casts || object.mesh.empty()) continue;
+    const Bounds& box = object.mesh.bounds();
+    const Vec3 middle = box.center();
+    placed.push_back({{middle.x, middle.y, middle.z}, casters.size(), box});
+    casters.push_back({.object = i,
+                       .name = object.name,
+                       .faces = object.mesh.triangles().size(),
+                       .edges = object.mesh.edges().size()});
+  }
+  order_by_place(placed.data(), placed.data() + placed.size(), 1);
+  reach.of_casters(placed, casters);
+}
 
 }  // namespace
 
@@ -69,27 +119,23 @@ LightFacts measure_light(const Scene& objects, const RayScene& rays, const Light
   LightFacts facts{.is_point = is_point(light),
                    .is_rectangle = std::holds_alternative<RectangleLight>(light),
                    .receivers = boxes.present()};
-  for (std::size_t i = 0; i < objects.objects.size(); ++i) {
-    const SceneObject& object = objects.objects[i];
-    if (object.casts && !object.mesh.empty())
-      facts.casters.push_back({.object = i,
-                               .name = object.name,
-                               .faces = object.mesh.triangles().size(),
-                               .edges = object.mesh.edges().size()});
-  }
   rays.arena().execute([&] {
     facts.dark = reach.count_dark();
-    tbb::parallel_for(std::size_t{0}, facts.casters.size(), [&](std::size_t k) {
-      facts.casters[k].reach = reach.of_caster(objects.objects[facts.casters[k].object].mesh.bounds());
-    });
+    if (facts.dark < facts.receivers) find_casters(objects, reach, facts.casters);
   });
+  if (facts.dark == facts.receivers) return facts;
   if (request.hard_below > 0.0)
     facts.widest_penumbra = rays.arena().execute([&] {
       return widest_penumbra(objects, circle, LightSides(circle), receivers, boxes, facts.casters);
     });
   if (!facts.is_point)
-    facts.sampled = sample_light(objects, rays, circle, light, receivers, facts.casters,
-                                 [&](std::uint32_t index) { return reach.is_dark(index); });
+    facts.sampled = sample_light(
+        objects, rays, circle, light, receivers, facts.casters,
+        [&](std::uint32_t index) { return reach.is_dark(index); },
+        [&](const SampledFacts& sampled) {
+          facts.sampled = sampled;
+          return second_pilot(facts, request);
+        });
   return facts;
 }
 

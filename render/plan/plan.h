@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -50,6 +51,22 @@ struct SampledPart {
   std::vector<double> edges_each{};
 };
 
+/// Two independent estimates of V by so many rays each, at some receivers in penumbra: their difference tells their error.
+struct RayPilot {
+  struct Receiver {
+    /// How many of the receivers that were looked at it stands for.
+    double weight = 1.0;
+    /// Half the squared difference of the estimates: on average the squared error of one.
+    double error2 = 0.0;
+    /// Silhouette edges before it.
+    double edges = 0.0;
+    /// Those of one group lie beside each other. One group after another.
+    std::uint32_t group = 0;
+  };
+  int samples = 1;
+  std::vector<Receiver> each{};
+};
+
 /// Of receivers chosen evenly among those that the light reaches, told apart by 16 rays each. Estimates, the same in every
 /// run.
 struct SampledFacts {
@@ -60,6 +77,10 @@ struct SampledFacts {
   /// Over the penumbra: the mean v of O (1 - O), so that the squared error of n rays by chance is v / n; and b, so that
   /// b / n^(3/2) is that of n stratified rays, many of which fall into strata that no boundary crosses.
   double variance = 0.0, boundary = 0.0;
+  /// One with few rays, and where rays are likely to be chosen one with about as many as the error asks for.
+  std::vector<RayPilot> pilots{};
+  /// Of so many edges one was looked at.
+  double edges_a_sample = 1.0;
 };
 
 /// What is known of one light before anything is computed for it.

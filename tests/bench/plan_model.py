@@ -2,11 +2,13 @@
 
   plan_model.py fit ROWS.jsonl HEADER DOCUMENT   writes the constants, and how far they are off into the document
   plan_model.py check RANDOM.jsonl [FOOLISH.jsonl]   says what plans cost beside the fastest method
+  plan_model.py errors ERRORS.jsonl [DOCUMENT]       says, there too, how often errors that are asked for are kept
   plan_model.py checked RANDOM.jsonl DOCUMENT        writes that into the document
   plan_model.py example PENUMBRA DOCUMENT            writes what `penumbra plan` says of the document's scene into it
 
 Rows are those of penumbra_plan_bench (tests/bench/plan): for each scene the facts of its plan, and for each method milliseconds of the
-processor's time on one thread, halved for two cores, and the RMSE of V over the penumbra by rays in double without offset.
+processor's time on one thread, halved for two cores, and the RMSE of V over the penumbra by rays in double without offset; of rays also
+the RMSE that the plan says is kept nineteen times of twenty (kept).
 """
 import collections
 import json
@@ -70,19 +72,14 @@ def merging_features(facts):
 
 def ray_features(facts, part, samples):
     """Of a receiver with so many rays."""
-    return [1] + [samples * feature for feature in (1, math.log2(1 + facts["faces"]), math.sqrt(part["boxes"]), math.sqrt(part["edges"]), math.sqrt(part["boxes"] * part["edges"]))]
+    both = math.sqrt(part["boxes"] * part["edges"])
+    return [1, both] + [samples * feature for feature in (1, math.log2(1 + facts["faces"]), math.sqrt(part["boxes"]), math.sqrt(part["edges"]), both)]
 
 
 def reference_features(facts, samples):
     parts = [facts[part] for part in PARTS]
     sums = [sum(part["share"] * f for part, f in zip(parts, fs)) for fs in zip(*(ray_features(facts, p, samples) for p in parts))]
     return [reached(facts) * f for f in sums]
-
-
-def rays_error(facts, samples, up_to=0):
-    """What nineteen of twenty scenes keep is a factor more."""
-    chance, boundary = facts["variance"] / samples, facts["boundary"] / samples ** 1.5
-    return math.sqrt(traced_of(facts["penumbra"], up_to) * chance * boundary / (chance + boundary))
 
 
 def few_of(part, up_to):
@@ -94,12 +91,6 @@ def few_of(part, up_to):
         return (1, 1) if part["edges"] <= up_to else (0, 0)
     few = [edges for edges in each if edges <= up_to]
     return len(few) / len(each), sum(few) / sum(each) if sum(each) > 0 else 1
-
-
-def traced_of(part, up_to):
-    """The share of the receivers that rays are traced for, with one more than those that were looked at."""
-    few, looked_at = few_of(part, up_to)[0], len(part["edges_each"])
-    return ((1 - few) * looked_at + 1) / (looked_at + 1) if looked_at else 1 - few
 
 
 class Model:
@@ -122,7 +113,7 @@ class Model:
         merged = [row for row in many if least(row, "silhouette") > 1.1 * least(row, "rays")]
         self.merging = fit_constants([merging_features(row["facts"]) for row in merged],
                                      [least(row, "silhouette") - least(row, "rays") for row in merged])
-        self.errors = self.errors_of_silhouette(rows) | {"rays": self.factor_of_rays(rows)}
+        self.errors = self.errors_of_silhouette(rows)
 
     @staticmethod
     def errors_of_silhouette(rows):
@@ -132,13 +123,6 @@ class Model:
         sort = lambda many: [row["measured"]["silhouette"]["rmse"] for row in rows.values()
                              if "rmse" in row["measured"]["silhouette"] and (row["facts"]["penumbra"]["edges"] > FEW_EDGES) == many]
         return {"few": most(sort(False)), "many": most(sort(True))}
-
-    @staticmethod
-    def factor_of_rays(rows):
-        """By how much rays are further off than they themselves let expect, at most, in nineteen of twenty scenes."""
-        ratios = sorted(measured["rmse"] / rays_error(row["facts"], int(name[10:])) for row in rows.values()
-                        for name, measured in row["measured"].items() if name.startswith("reference-") and "rmse" in measured)
-        return max(1, ratios[math.ceil(.95 * len(ratios)) - 1])
 
     def area_ns(self, part):
         return self.silhouette[3] * part["merged_edges"] + self.silhouette[4] * math.sqrt(part["edges"]) + self.silhouette[5] * part["edge_length"]
@@ -198,15 +182,14 @@ def fit(path, header, document):
 
 def write_header(path, model):
     names = [("Silhouette", ["Receiver", "CasterEdge", "BandEdge", "Merged", "RootOfEdges", "Length", "Box"], model.silhouette),
-             ("Ray", ["Receiver", "", "LogFaces", "RootOfBoxes", "RootOfEdges", "RootOfBoth"], model.ray),
+             ("Ray", ["Receiver", "ReceiverRootOfBoth", "", "LogFaces", "RootOfBoxes", "RootOfEdges", "RootOfBoth"], model.ray),
              ("Rays", ["Receiver", "CasterEdge", "BandEdge", "RootOfEdges", "Edge", "Box", "OpenPenumbra", "OpenRest"], model.rays),
              ("Hierarchy", ["Edge"], [model.hierarchy]), ("Merging", ["Edge", "EdgeTimesRoot"], model.merging)]
     line = lambda name, value: f"inline constexpr double k{name} = {value:.4g};"
     lines = ["// Nanoseconds on two cores; kRaysOpen...: factors."]
     lines += [line(group + name, value) for group, members, values in names for name, value in zip(members, values)]
-    lines += ["// RMSE of V over the penumbra; kErrorOfRays: a factor."]
-    lines += [line("ErrorOfFew", model.errors["few"]), line("ErrorOfMany", model.errors["many"]),
-              line("ErrorOfRays", model.errors["rays"])]
+    lines += ["// RMSE of V over the penumbra."]
+    lines += [line("ErrorOfFew", model.errors["few"]), line("ErrorOfMany", model.errors["many"])]
     path.write_text("// Constants of the planner's model. Made by `./run plan-model` from data/plan/rows.jsonl: do not edit.\n"
                     "#pragma once\n\nnamespace penumbra::detail::fit {\n\n" + "\n".join(lines) + "\n\n}  // namespace penumbra::detail::fit\n")
 
@@ -240,8 +223,7 @@ def residuals_of(rows, model):
             if "rmse" not in measured:
                 continue
             error = (model.error_of_silhouette(facts) if method == "silhouette" else
-                     math.hypot(model.error_of_silhouette(facts) if method == "areas" else 0,
-                                model.errors["rays"] * rays_error(facts, samples, samples // 4 if method == "areas" else 0)))
+                     math.hypot(model.error_of_silhouette(facts) if method == "areas" else 0, row["kept"][setting]))
             judged[method] += 1
             above[method] += measured["rmse"] > error
             if method == "reference":
@@ -325,24 +307,41 @@ def said_of(rows, words):
     return "\n".join([f"{len(plans)} plans for {words}:", ""] + summary(plans) + [""] + worst(plans, 8))
 
 
-def blocks_of(chance):
-    """What is said of scenes by chance, by the document's marks; of plans by an earlier model, too, where the rows have them."""
-    rows, words = read_rows(chance), "scenes by chance that have a penumbra, each for one error of .05 to .003"
-    before = {name: row | {"auto": row["auto_before"]} for name, row in rows.items() if "auto_before" in row}
-    return ({"<!-- before -->": said_of(before, words)} if before else {}) | {"<!-- check -->": said_of(rows, words)}
+def said_of_chance(chance):
+    return said_of(read_rows(chance), "scenes by chance that have a penumbra, each for one error of .05 to .003")
+
+
+def kept_errors(path):
+    """How often an error that is asked for is kept, of rows without times."""
+    done = [plan for row in read_rows(path).values() if row["judged_pixels"] >= 50
+            for plan in row.get("auto", []) if plan["reason"] == "cheapest"]
+    groups = {"all": done} | {method: [p for p in done if p["method"] == method] for method in sorted({p["method"] for p in done})}
+    groups |= {f"error {budget}": [p for p in done if p["budget"] == budget] for budget in sorted({p["budget"] for p in done})}
+    lines = ["| plans | kept | by the lower end of the 95% interval | RMSE over what the plan predicts: median | nine of ten | at most |", "|---|---|---|---|---|---|"]
+    for name, plans in groups.items():
+        ratios = sorted(p["rmse"] / p["predicted_error"] for p in plans)
+        kept = [sum(p[key] <= p["budget"] for p in plans) for key in ("rmse", "low")]
+        lines.append(f"| {name} | {kept[0]} of {len(plans)} | {kept[1]} of {len(plans)} | " +
+                     " | ".join(f"{ratios[k]:.2f}" for k in (len(ratios) // 2, len(ratios) * 9 // 10, -1)) + " |")
+    return "\n".join(lines)
+
+
+def errors(path, document=None):
+    print(kept_errors(path))
+    if document:
+        replace_block(document, "<!-- errors -->", kept_errors(path))
 
 
 def check(chance, foolish=None):
-    print("\n\n".join(blocks_of(chance).values()))
+    print(said_of_chance(chance))
     if foolish:
         print("\n" + said_of(read_rows(foolish), "scenes on which some method is foolish, for errors of .05 to .002"))
 
 
 def write_checked(chance, document):
-    for begin, text in blocks_of(chance).items():
-        replace_block(document, begin, text)
+    replace_block(document, "<!-- check -->", said_of_chance(chance))
 
 
 if __name__ == "__main__":
     command, paths = sys.argv[1], [Path(path) for path in sys.argv[2:]]
-    {"fit": fit, "check": check, "checked": write_checked, "example": write_example}[command](*paths)
+    {"fit": fit, "check": check, "errors": errors, "checked": write_checked, "example": write_example}[command](*paths)

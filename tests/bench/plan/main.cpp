@@ -20,6 +20,7 @@ constexpr const char* kHelp = R"(penumbra_plan_bench WHAT FILE [CASE...]
   facts    facts anew for the rows of FILE, which keep what was measured: written into FILE.facts
   plans    facts anew and what auto does anew, for the rows of random: written into FILE.plans
   random   random-FIRST random-LAST, at 240x180, and what auto does for one error each
+  errors   random-FIRST random-LAST, at 240x180: what auto does for errors of .05 to .003, without times
   scaling  (no FILE) what casters and lights cost that the picture does not call for
 Adds a line of JSON to FILE for each scene that it has not. K/N before the cases: of N shares the Kth, from 0.)";
 
@@ -54,9 +55,10 @@ std::uint64_t seed_of(const std::string& name) {
   return std::stoull(name.substr(name.find('-') + 1));
 }
 
+constexpr double kBudgets[] = {0.05, 0.03, 0.02, 0.01, 0.005, 0.003};
+
 /// Another one for each scene in turn.
 double budget_of(std::uint64_t seed) {
-  constexpr double kBudgets[] = {0.05, 0.03, 0.02, 0.01, 0.005, 0.003};
   return kBudgets[seed % std::size(kBudgets)];
 }
 
@@ -82,6 +84,12 @@ nlohmann::json measure(const std::string& what, const std::string& name) {
   if (what == "foolish")
     return MeasuredScene(plan_case(name), {.judged = 500, .judge_samples = 1'024})
         .row(ladder(), {0.05, 0.02, 0.01, 0.005, 0.002});
+  if (what == "errors") {
+    nlohmann::json row =
+        MeasuredScene(plan_case(name), kSmall).row({}, {std::begin(kBudgets), std::end(kBudgets)}, false);
+    row.erase("facts");
+    return row;
+  }
   return MeasuredScene(plan_case(name), kSmall).row(ladder(), {budget_of(seed_of(name))});
 }
 
@@ -104,8 +112,10 @@ void measure_anew(const std::string& file, bool with_plans) {
     std::vector<double> budgets;
     if (with_plans && is_random(name)) budgets.push_back(budget_of(seed_of(name)));
     if (budgets.empty()) options.judged = 0;
-    const nlohmann::json anew = MeasuredScene(plan_case(name), options).row({}, budgets);
-    for (const char* key : {"facts", "plan_ms", "auto"})
+    const MeasuredScene scene(plan_case(name), options);
+    nlohmann::json anew = scene.planned(is_random(name) ? ladder() : fit_settings());
+    if (!budgets.empty()) anew.update(scene.row({}, budgets));
+    for (const char* key : {"facts", "plan_ms", "kept", "auto"})
       if (anew.contains(key)) row[key] = anew.at(key);
     out << row.dump() << "\n" << std::flush;
   }
@@ -118,7 +128,10 @@ int run(const std::vector<std::string>& words) {
   }
   if (words.size() == 2 && (words[0] == "facts" || words[0] == "plans"))
     return measure_anew(words[1], words[0] == "plans"), 0;
-  if (words.size() < 2 || (words[0] != "fit" && words[0] != "foolish" && words[0] != "random")) {
+  constexpr const char* kWhats[] = {"fit", "foolish", "random", "errors"};
+  if (words.size() < 2 || std::ranges::find(kWhats, words[0], [](const char* what) {
+                            return std::string(what);
+                          }) == std::end(kWhats)) {
     std::puts(kHelp);
     return 2;
   }
@@ -129,7 +142,7 @@ int run(const std::vector<std::string>& words) {
     shares = std::stoul(names[0].substr(names[0].find('/') + 1));
     names.erase(names.begin());
   }
-  if (words[0] == "random") names = random_cases(names);
+  if (words[0] == "random" || words[0] == "errors") names = random_cases(names);
   if (names.empty()) names = words[0] == "fit" ? fit_cases() : foolish_cases();
   const std::set<std::string> known = names_in(words[1]);
   for (std::size_t i = 0; i < names.size(); ++i) {

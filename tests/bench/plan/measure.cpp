@@ -7,6 +7,7 @@
 #include "apps/cli/plan/plan_json.h"
 #include "apps/common/stats.h"
 #include "render/plan/auto_method.h"
+#include "render/plan/sample/ray_error.h"
 
 namespace penumbra::bench {
 namespace {
@@ -28,6 +29,16 @@ double ms_of(const Work& work) {
 
 double rounded(double value, double unit) {
   return std::round(value / unit) * unit;
+}
+
+/// What plans say of rays: nineteen times of twenty the RMSE is less.
+double kept_rmse(const LightFacts& facts, const Setting& setting) {
+  const auto number = [&](const char* name) {
+    const auto found = setting.options.find(name);
+    return found == setting.options.end() ? 0 : static_cast<int>(std::get<std::uint64_t>(found->second));
+  };
+  return rounded(
+      std::sqrt(detail::squared_error_kept(facts.sampled, number("samples"), number("areas-up-to"))), 1e-6);
 }
 
 }  // namespace
@@ -66,7 +77,8 @@ void MeasuredScene::trace_references() {
 }
 
 /// The least time of several frames, and what the first one took beside it.
-MeasuredScene::Run MeasuredScene::run(const std::string& method, const OptionValues& options) const {
+MeasuredScene::Run MeasuredScene::run(const std::string& method, const OptionValues& options,
+                                      bool timed) const {
   constexpr double kEnough = 80.0;  // milliseconds
   constexpr int kMost = 6;
   const MethodInfo& info = method_named(method);
@@ -86,7 +98,7 @@ MeasuredScene::Run MeasuredScene::run(const std::string& method, const OptionVal
   const double first = frame();
   double sum = 0.0;
   out.times.frame = first;
-  for (int i = 0; i < kMost && sum < kEnough; ++i) {
+  for (int i = 0; timed && i < kMost && sum < kEnough; ++i) {
     made->forget();
     const double again = frame();
     sum += again;
@@ -107,40 +119,44 @@ nlohmann::json MeasuredScene::judged(const Run& run) const {
   return out;
 }
 
-nlohmann::json MeasuredScene::plan_row() const {
-  LightPlan plan;
+nlohmann::json MeasuredScene::planned(const std::vector<Setting>& settings) const {
+  LightFacts facts;
   double least = 1e300;
-  for (int i = 0; i < 5; ++i)
-    least = std::min(least, ms_of([&] {
-                       plan =
-                           plan_light(scene_, rays_, scene_.lights.front().shape, surface_.receivers(), {});
-                     }));
-  return {{"facts", apps::to_json(plan.facts)}, {"plan_ms", rounded(least, 0.001)}};
+  for (int i = 0; i < 5; ++i) least = std::min(least, ms_of([&] { facts = plan({}).facts; }));
+  nlohmann::json out = {{"facts", apps::to_json(facts)}, {"plan_ms", rounded(least, 0.001)}};
+  for (const Setting& setting : settings)
+    if (setting.options.contains("samples")) out["kept"][setting.name] = kept_rmse(facts, setting);
+  return out;
 }
 
-nlohmann::json MeasuredScene::row(const std::vector<Setting>& settings, const std::vector<double>& budgets) {
-  nlohmann::json out = plan_row();
+LightPlan MeasuredScene::plan(const PlanRequest& request) const {
+  return plan_light(scene_, rays_, scene_.lights.front().shape, surface_.receivers(), request);
+}
+
+nlohmann::json MeasuredScene::by_auto(double budget, bool timed) const {
+  const Run done = run("auto", {{"max-error", budget}}, timed);
+  nlohmann::json out = judged(done);
+  const LightPlan plan = this->plan({.max_error = budget});
+  out["budget"] = budget;
+  out["method"] = plan.method;
+  out["options"] = apps::to_json(plan.options);
+  out["reason"] = plan.decisions.empty() ? "" : plan.decisions.back().reason;
+  out["predicted_ms"] = rounded(plan.milliseconds, 0.01);
+  out["predicted_error"] = plan.error;
+  return out;
+}
+
+nlohmann::json MeasuredScene::row(const std::vector<Setting>& settings, const std::vector<double>& budgets,
+                                  bool timed) const {
+  nlohmann::json out = planned(settings);
   out["judged_pixels"] = penumbra_.size();
   for (const Setting& setting : settings) {
-    const Run done = run(setting.method, setting.options);
-    out["measured"][setting.name] = judged(done);
+    const Run done = run(setting.method, setting.options, timed);
+    nlohmann::json& json = out["measured"][setting.name] = judged(done);
     const Count* open = find(done.last.counts, "open");
-    if (open && setting.method == "rays")
-      out["measured"][setting.name]["open"] = std::get<std::uint64_t>(open->value);
+    if (open && setting.method == "rays") json["open"] = std::get<std::uint64_t>(open->value);
   }
-  for (const double budget : budgets) {
-    const Run done = run("auto", {{"max-error", budget}});
-    nlohmann::json json = judged(done);
-    json["budget"] = budget;
-    const LightPlan plan =
-        plan_light(scene_, rays_, scene_.lights.front().shape, surface_.receivers(), {.max_error = budget});
-    json["method"] = plan.method;
-    json["options"] = apps::to_json(plan.options);
-    json["reason"] = plan.decisions.empty() ? "" : plan.decisions.back().reason;
-    json["predicted_ms"] = rounded(plan.milliseconds, 0.01);
-    json["predicted_error"] = plan.error;
-    out["auto"].push_back(std::move(json));
-  }
+  for (const double budget : budgets) out["auto"].push_back(by_auto(budget, timed));
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "apps/cli/judge.h"
 #include "penumbra/render/image/error_figures.h"
 #include "penumbra/render/method.h"
+#include "penumbra/render/plan/plan.h"
 #include "render/rays/ray_scene.h"
 
 namespace penumbra::bench {
@@ -39,17 +40,23 @@ class MeasuredScene {
  public:
   MeasuredScene(Scene scene, const MeasureOptions& options);
 
-  /// facts of the plan and the milliseconds that it takes, a "measured" for each setting, and an "auto" for each budget.
-  nlohmann::json row(const std::vector<Setting>& settings, const std::vector<double>& budgets);
+  /// planned(), a "measured" for each setting, and an "auto" for each budget. `timed`: else each is run once, and times mean
+  /// nothing.
+  nlohmann::json row(const std::vector<Setting>& settings, const std::vector<double>& budgets,
+                     bool timed = true) const;
+  /// Facts of the plan, the milliseconds that it takes, and for each setting with rays the RMSE that it says is "kept" nineteen
+  /// times of twenty.
+  nlohmann::json planned(const std::vector<Setting>& settings) const;
 
  private:
   struct Run {
     Times times;
     MethodResult last;
   };
-  Run run(const std::string& method, const OptionValues& options) const;
+  Run run(const std::string& method, const OptionValues& options, bool timed) const;
   nlohmann::json judged(const Run& run) const;
-  nlohmann::json plan_row() const;
+  nlohmann::json by_auto(double budget, bool timed) const;
+  LightPlan plan(const PlanRequest& request) const;
   void trace_references();
 
   Scene scene_;

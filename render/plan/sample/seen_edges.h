@@ -11,6 +11,18 @@
 
 namespace penumbra::detail {
 
+/// Numbers of edges column by column, for loops over many of them. Single precision, relative to a point among them.
+struct EdgeColumns {
+  /// Ends: u, v, depth. Planes of faces: normal and offset.
+  std::array<std::vector<float>, 3> from, to;
+  std::array<std::vector<float>, 4> left, right;
+};
+
+/// Boxes column by column.
+struct BoxColumns {
+  std::array<std::vector<double>, 3> low, high;
+};
+
 /// Some of the edges of the casters that may reach receivers.
 class EdgeSample {
  public:
@@ -38,20 +50,29 @@ class EdgeSample {
  private:
   /// An edge in the light's frame: u, v, depth.
   struct Seen {
-    Vec3 from, to;
-    /// Planes of the faces, normal·p + offset; of a boundary edge the second is 0.
-    std::array<Vec3, 2> normals;
-    std::array<double, 2> offsets;
-    bool is_boundary, may_merge;
+    Vec3 from{0.0}, to{0.0};
+    /// Planes of the faces, normal·p + offset; of a boundary edge two that have every point on different sides.
+    std::array<Vec3, 2> normals{Vec3(0.0), Vec3(0.0)};
+    std::array<double, 2> offsets{1.0, -1.0};
+    bool is_boundary = true, may_merge = false;
   };
+  Seen seen(const TriangleMesh& mesh, const Edge& edge) const;
   Vec3 in_frame(const Vec3& world) const;
   /// How long the edge is across the light, in radii, as x sees it; 0 where it is not.
   double length_across(const Seen& edge, const Vec3& x) const;
   bool is_in_band(const Seen& edge) const;
+  void fill_columns();
+  void add(const Seen& edge, const Vec3& x, Crossing& out) const;
+
+  /// Edges that come one after another, of one place mostly: most of such groups lie beside the light as a whole.
+  static constexpr std::size_t kGroup = 32;
 
   CircularLight light_;
   LightFrame axes_;
   std::vector<Seen> edges_;
+  std::vector<Bounds> groups_;
+  Vec3 origin_{0.0};
+  EdgeColumns columns_;
   std::size_t band_ = 0;
   double each_stands_for_ = 1.0;
 };
@@ -64,7 +85,7 @@ class FaceSample {
   double boxes_on(const Vec3& x, const Vec3& way, bool endless) const;
 
  private:
-  std::vector<Bounds> boxes_;
+  BoxColumns boxes_;
   double each_stands_for_ = 1.0;
 };
 
