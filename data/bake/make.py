@@ -60,8 +60,7 @@ write_off("ball", ball((-.7, 1.03, 0), .25, 12, 24))
 write_off("column", column((1.7, 0, -.6), .3, 1.9, 24))
 write_off("shelf", joined(box((-.6, 1.5, -2), (1, 1.55, -1.7)), box((-.45, 1.55, -1.95), (-.3, 1.85, -1.75)), box((.1, 1.55, -1.95), (.4, 1.7, -1.75))))
 lights = [{"name": "ceiling", "shape": "disk", "center": [-.4, 2.95, .2], "normal": [0, -1, 0], "radius": .3, "radiance": [14, 12.5, 10]},
-          {"name": "panel", "shape": "rectangle", "center": [-2.95, 1.6, .4], "normal": [1, 0, 0], "tangent": [0, 0, 1], "half_extents": [.6, .4],
-           "radiance": [2, 2.6, 4]},
+          {"name": "panel", "shape": "disk", "center": [-2.95, 1.6, .4], "normal": [1, 0, 0], "radius": .5, "radiance": [2, 2.6, 4]},
           {"name": "spot", "shape": "disk", "center": [2.3, 2.6, .9], "normal": [-.5, -1, -.9], "radius": .08, "radiance": [90, 60, 40]}]
 scene = {"version": 1, "lights": lights,
          "camera": {"eye": [.6, 1.9, 6.6], "target": [0, 1.3, 0], "up": [0, 1, 0], "fov_y_degrees": 42},

@@ -10,6 +10,8 @@
 namespace penumbra::apps {
 namespace {
 
+constexpr const char* kExtension = ".f32";
+
 std::string text_of_file(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
@@ -25,19 +27,21 @@ PartStore::PartStore(std::filesystem::path folder, const nlohmann::json& setting
   std::filesystem::create_directory(folder_, error);
   if (error || !std::filesystem::is_directory(folder_, error))
     throw SystemError(folder_.string() + ": cannot be made a folder for parts; name another by --parts");
-  if (std::filesystem::exists(settings_file(), error)) {
-    if (text_of_file(settings_file()) != to_text(settings))
-      throw UsageError(folder_.string() +
-                       ": holds parts of another scene or other options; remove it, or name another by --parts");
-    return;
+  bool is_mine = std::filesystem::is_empty(folder_, error), has_parts = false;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+    is_mine = is_mine || entry.path() == settings_file();
+    has_parts = has_parts || entry.path().extension() == kExtension;
   }
-  if (!std::filesystem::is_empty(folder_, error))
-    throw UsageError(folder_.string() + ": is there and holds no parts; name another by --parts");
-  write_json(settings_file(), settings);
+  if (!is_mine) throw UsageError(folder_.string() + ": is there and holds no parts; name another by --parts");
+  if (!has_parts)
+    write_json(settings_file(), settings);
+  else if (text_of_file(settings_file()) != to_text(settings))
+    throw UsageError(folder_.string() +
+                     ": holds parts of another scene or other options; remove it, or name another by --parts");
 }
 
 std::filesystem::path PartStore::file_of(std::size_t part) const {
-  return folder_ / (std::to_string(part) + ".f32");
+  return folder_ / (std::to_string(part) + kExtension);
 }
 
 bool PartStore::has(std::size_t part, std::size_t values) const {

@@ -106,24 +106,25 @@ TEST(UvOverlaps, CommonAreasAndPairs) {
   EXPECT_EQ(pairs[1], std::pair(1u, 2u));
 }
 
-/// Every texel with the charts that touch it, by the oldest means: no other is within `gap` texels.
+/// No texel within the padding of one that a chart touches is touched by another.
 void expect_charts_apart(const std::vector<SceneObject>& objects, const AtlasOptions& options) {
   const TextureAtlas atlas = make_atlas(objects, options);
   const detail::TextureCoverage coverage(atlas, 64);
-  const auto chart_of = [&](std::uint32_t object, std::uint32_t face) {
-    std::size_t number = 0;
+  std::vector<std::vector<std::size_t>> charts(objects.size());  // of each face
+  for (std::uint32_t object = 0; object < objects.size(); ++object) {
+    charts[object].resize(objects[object].mesh.triangles().size());
+    std::size_t number = 1000 * object;
     for (const Chart& chart : detail::make_charts(objects[object].mesh, object, options.chart_degrees)) {
-      if (std::ranges::find(chart.faces, face) != chart.faces.end()) return object * 1000 + number;
+      for (const std::uint32_t f : chart.faces) charts[object][f] = number;
       ++number;
     }
-    return std::size_t{0};
-  };
+  }
   std::vector<std::size_t> owner(static_cast<std::size_t>(atlas.width * atlas.height), SIZE_MAX);
   for (std::size_t t = 0; t < coverage.tiles(); ++t)
     coverage.for_each_piece(
         t, 1, [](int, int) { return true; },
         [&](const detail::TexelPiece& piece) {
-          const std::size_t chart = chart_of(piece.object, piece.face);
+          const std::size_t chart = charts[piece.object][piece.face];
           for (int y = piece.y - options.padding; y <= piece.y + options.padding; ++y)
             for (int x = piece.x - options.padding; x <= piece.x + options.padding; ++x) {
               if (x < 0 || y < 0 || x >= atlas.width || y >= atlas.height) continue;

@@ -167,7 +167,9 @@ TEST_F(BakePartsTest, WhatIsThereIsNotDoneAgain) {
 }
 
 TEST_F(BakePartsTest, PartsOfOtherSettingsAreRefused) {
-  apps::PartStore(file("parts"), {{"scene", "a"}});
+  apps::PartStore(file("parts"), {{"scene", "b"}});
+  // Without parts there is nothing to mix.
+  apps::PartStore(file("parts"), {{"scene", "a"}}).write(0, {1.0f});
   EXPECT_NO_THROW(apps::PartStore(file("parts"), {{"scene", "a"}}));
   EXPECT_THROW(apps::PartStore(file("parts"), {{"scene", "b"}}), UsageError);
   std::filesystem::create_directory(file("mine"));
