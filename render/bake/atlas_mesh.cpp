@@ -64,8 +64,8 @@ struct Vertices {
     for (std::size_t f = 0; f < mesh.triangles().size(); ++f)
       for (const std::size_t k : corner_order(turned)) {
         const std::uint32_t v = mesh.triangles()[f][k];
-        const auto [at, is_new] = numbers.try_emplace({v, uv[f][k].x, uv[f][k].y},
-                                                      static_cast<std::uint32_t>(list.size()));
+        const auto [at, is_new] =
+            numbers.try_emplace({v, uv[f][k].x, uv[f][k].y}, static_cast<std::uint32_t>(list.size()));
         if (is_new) list.emplace_back(v, uv[f][k]);
         indices.push_back(at->second);
       }
@@ -147,9 +147,8 @@ class GlbWriter {
   int add_indices(const Vertices& vertices) {
     const std::size_t begin = data_.size();
     for (const std::uint32_t i : vertices.indices) detail::append_little_endian(data_, i);
-    return add_accessor(begin, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
-                        TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                        vertices.indices.size());
+    return add_accessor(begin, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                        TINYGLTF_TYPE_SCALAR, vertices.indices.size());
   }
   int add_accessor(std::size_t begin, int target, int component, int type, std::size_t count) {
     tinygltf::BufferView view;

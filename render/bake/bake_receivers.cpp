@@ -29,7 +29,8 @@ struct Sums {
     std::vector<float> out(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double weight = weights[i % targets];
-      out[i] = weight > 0.0 ? static_cast<float>(values[i] / weight) : std::numeric_limits<float>::quiet_NaN();
+      out[i] =
+          weight > 0.0 ? static_cast<float>(values[i] / weight) : std::numeric_limits<float>::quiet_NaN();
     }
     return out;
   }
@@ -67,14 +68,14 @@ void BakeReceivers::add(const TriangleMesh& mesh, std::uint32_t object, std::uin
 std::vector<float> bake_means(const BakeSource& source, const BakeReceivers& receivers, std::size_t targets,
                               const Progress& progress) {
   Sums sums(source.channels(), targets);
-  for (std::size_t i = 0; i < receivers.size(); ++i) sums.weights[receivers.targets[i]] += receivers.weights[i];
+  for (std::size_t i = 0; i < receivers.size(); ++i)
+    sums.weights[receivers.targets[i]] += receivers.weights[i];
   if (receivers.size() == 0) return sums.means();
   std::vector<LightShape> shapes;
   for (const Light& light : source.lights) shapes.push_back(light.shape);
   VisibilityOptions options = source.visibility;
   options.progress = progress;
-  const std::vector<MethodResult> seen =
-      visibility(source.casters, shapes, receivers.receivers(), options);
+  const std::vector<MethodResult> seen = visibility(source.casters, shapes, receivers.receivers(), options);
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const AreaLight light = area_light(shapes[k]);
     for (std::size_t i = 0; i < receivers.size(); ++i) {
@@ -85,7 +86,8 @@ std::vector<float> bake_means(const BakeSource& source, const BakeReceivers& rec
       }
       const double factor = seen_irradiance(light, receivers.points[i], receivers.normals[i], value);
       for (int c = 0; c < 3; ++c)
-        sums.add(static_cast<std::size_t>(c), receivers.targets[i], weight * factor * source.lights[k].radiance[c]);
+        sums.add(static_cast<std::size_t>(c), receivers.targets[i],
+                 weight * factor * source.lights[k].radiance[c]);
     }
   }
   return sums.means();

@@ -76,8 +76,7 @@ std::vector<float> FaceMeans::bake(std::size_t part, const Progress& progress) c
       for (std::size_t corner = 0; corner < each(); ++corner) {
         double sum = 0.0, weights = 0.0;
         for (std::size_t k = 0; k < places.size(); ++k) {
-          const double weight =
-              each() == 1 ? 1.0 : places[k][static_cast<int>(corner)];
+          const double weight = each() == 1 ? 1.0 : places[k][static_cast<int>(corner)];
           sum += weight * seen[c * receivers.size() + r + k];
           weights += weight;
         }
@@ -98,8 +97,7 @@ std::vector<std::vector<float>> FaceMeans::finish(
     const std::vector<float> of_part = values_of(part);
     if (of_part.size() != values(part))
       throw UsageError("part " + std::to_string(part) + " has " + std::to_string(of_part.size()) +
-                       " values and should have " + std::to_string(values(part)) +
-                       "; it is of another bake");
+                       " values and should have " + std::to_string(values(part)) + "; it is of another bake");
     const std::size_t count = faces(part);
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t corner = 0; corner < each(); ++corner) {

@@ -123,7 +123,9 @@ void LightmapBaker::State::take(std::size_t tile, const std::vector<float>& valu
           map.channels[c][texel(range.left + x, range.top + y)] = of_channel[y * range.width + x];
     collected.values[c].insert(collected.values[c].end(), of_channel + range.size(), of_channel + count);
   }
-  for_each_sample(tile, [&](const TexelPiece& piece) { collected.samples.push_back({piece.at, piece.area}); });
+  for_each_sample(tile, [&](const TexelPiece& piece) {
+    collected.samples.push_back({piece.at, piece.area});
+  });
 }
 
 void LightmapBaker::State::fill_borders(const Collected& collected, Lightmap& map) const {
@@ -154,8 +156,7 @@ void LightmapBaker::State::fill_borders(const Collected& collected, Lightmap& ma
   detail::dilate(map.width, map.height, options.dilation, std::move(has_value), map.channels);
 }
 
-Lightmap LightmapBaker::finish(
-    const std::function<std::vector<float>(std::size_t tile)>& values_of) const {
+Lightmap LightmapBaker::finish(const std::function<std::vector<float>(std::size_t tile)>& values_of) const {
   const TextureAtlas& atlas = state_->atlas;
   const std::size_t channels = state_->source.channels();
   Lightmap map{.width = atlas.width, .height = atlas.height};

@@ -116,8 +116,8 @@ int width_for(const std::vector<Chart>& charts, const AtlasOptions& options) {
 std::vector<Chart> charts_of(const std::vector<SceneObject>& objects, const AtlasOptions& options) {
   std::vector<Chart> charts;
   const auto add = [&](std::size_t object) {
-    std::vector<Chart> more = detail::make_charts(
-        objects[object].mesh, static_cast<std::uint32_t>(object), options.chart_degrees);
+    std::vector<Chart> more =
+        detail::make_charts(objects[object].mesh, static_cast<std::uint32_t>(object), options.chart_degrees);
     std::ranges::move(more, std::back_inserter(charts));
   };
   if (options.objects.empty())

@@ -17,7 +17,8 @@ struct Span {
 /// The cells of a row that numbers from `low` to `high` may lie in.
 Span cells_between(double low, double high, double begin, int side, int count) {
   const double from = std::floor((low - begin) * side), to = std::ceil((high - begin) * side);
-  return {static_cast<int>(std::clamp(from, 0.0, double(count))), static_cast<int>(std::clamp(to, 0.0, double(count)))};
+  return {static_cast<int>(std::clamp(from, 0.0, double(count))),
+          static_cast<int>(std::clamp(to, 0.0, double(count)))};
 }
 
 ConvexPolygon between(const ConvexPolygon& polygon, int axis, double low, double high) {
@@ -103,13 +104,13 @@ void TextureCoverage::for_each_piece(std::size_t tile, int side,
     const Span rows = cells_between(box.low.y, box.high.y, range.top, side, range.height * side);
     const Span columns = cells_between(box.low.x, box.high.x, range.left, side, range.width * side);
     for (int j = rows.first; j < rows.last; ++j) {
-      const ConvexPolygon row = between(ConvexPolygon(uv), 1, range.top + j * step, range.top + (j + 1) * step);
+      const ConvexPolygon row =
+          between(ConvexPolygon(uv), 1, range.top + j * step, range.top + (j + 1) * step);
       if (row.empty()) continue;
       for (int i = columns.first; i < columns.last; ++i) {
         const int x = range.left + i / side, y = range.top + j / side;
         if (!wanted(x, y)) continue;
-        const auto cell =
-            between(row, 0, range.left + i * step, range.left + (i + 1) * step).measure();
+        const auto cell = between(row, 0, range.left + i * step, range.left + (i + 1) * step).measure();
         if (cell.area > 0.0) visit({x, y, number.object, number.face, cell.area, cell.centroid});
       }
     }

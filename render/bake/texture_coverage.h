@@ -20,7 +20,7 @@ struct TexelRange {
 struct TexelPiece {
   int x = 0, y = 0;  ///< the texel
   std::uint32_t object = 0, face = 0;
-  double area = 0.0;  ///< texels
+  double area = 0.0;   ///< texels
   glm::dvec2 at{0.0};  ///< the centroid of its area, in the texture
 };
 

@@ -16,7 +16,9 @@ void add_lightmap_options(CLI::App& command, BakeArguments& arguments) {
   command.add_option("--mesh", arguments.mesh, "The objects with the texture's coordinates, .glb or .obj")
       ->type_name("FILE")
       ->group(group);
-  command.add_option("--picture", arguments.picture, "The scene as its camera sees it, lit by the texture: PNG or EXR")
+  command
+      .add_option("--picture", arguments.picture,
+                  "The scene as its camera sees it, lit by the texture: PNG or EXR")
       ->type_name("FILE")
       ->group(group);
   command.add_option("--size", arguments.picture_size, "Of the picture, pixels")
@@ -79,23 +81,26 @@ void add_face_options(CLI::App& command, BakeArguments& arguments) {
 
 void add_bake_options(CLI::App& command, BakeArguments& arguments) {
   add_scene_input(command, arguments.scene);
-  command.add_option("--quantity", arguments.quantity,
-                     "visibility: of each light. irradiance: of all together, red, green and blue")
+  command
+      .add_option("--quantity", arguments.quantity,
+                  "visibility: of each light. irradiance: of all together, red, green and blue")
       ->check(CLI::IsMember({"visibility", "irradiance"}))
       ->capture_default_str();
   command
       .add_option("--object", arguments.objects,
                   "An object, by name or number; may be repeated for a lightmap. Otherwise all, or the first")
       ->type_name("NAME|N");
-  command.add_option("--light", arguments.lights, "A light, by name or number; may be repeated. Otherwise all")
+  command
+      .add_option("--light", arguments.lights, "A light, by name or number; may be repeated. Otherwise all")
       ->type_name("NAME|N");
   command
       .add_option("--back", arguments.backs,
                   "An object that gets light on the back of its faces: a room that is one closed mesh")
       ->type_name("NAME|N");
   command
-      .add_option("--parts", arguments.parts,
-                  "Folder for parts that are done, so that a bake that ended goes on; otherwise beside the result")
+      .add_option(
+          "--parts", arguments.parts,
+          "Folder for parts that are done, so that a bake that ended goes on; otherwise beside the result")
       ->type_name("DIR");
   add_lightmap_options(command, arguments);
   add_face_options(command, arguments);
@@ -114,7 +119,8 @@ void require_usable(const BakeArguments& arguments) {
   if (arguments.is_lightmap() == !arguments.to.empty())
     throw UsageError("say what is baked: --lightmap FILE, or --to faces or vertices with --output FILE");
   if (arguments.is_lightmap()) {
-    if (!arguments.output.empty()) throw UsageError("--output belongs to --to; a lightmap goes to --lightmap");
+    if (!arguments.output.empty())
+      throw UsageError("--output belongs to --to; a lightmap goes to --lightmap");
     require_extension("--lightmap", arguments.lightmap, {".exr"}, false);
     if (!arguments.mesh.empty()) require_extension("--mesh", arguments.mesh, {".glb", ".obj"}, false);
     if (!arguments.picture.empty())

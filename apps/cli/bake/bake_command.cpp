@@ -70,8 +70,8 @@ void write_map(const Bake& bake, const Lightmap& map, const TextureAtlas& atlas)
 void write_picture(const Bake& bake, const Lightmap& map, const TextureAtlas& atlas) {
   const BakeArguments& arguments = bake.arguments;
   const PixelPair size = parse_size(arguments.picture_size);
-  Image image = picture_by_lightmap(bake.scene, bake.source, atlas, map, size.x, size.y,
-                                    arguments.common.threads);
+  Image image =
+      picture_by_lightmap(bake.scene, bake.source, atlas, map, size.x, size.y, arguments.common.threads);
   if (extension_of(arguments.picture) == ".exr") {
     image.metadata = metadata_of(bake.scene);
     return write_exr(arguments.picture, image);
@@ -83,8 +83,9 @@ void write_picture(const Bake& bake, const Lightmap& map, const TextureAtlas& at
 std::string text_of(const TextureAtlas& atlas, const Lightmap& map) {
   const auto touched = std::ranges::count_if(map.coverage, [](float c) { return c > 0.0f; });
   char text[200];
-  std::snprintf(text, sizeof text, "%zu charts in %dx%d texels of %.4g scene units; %.0f%% of them are covered\n",
-                atlas.charts, atlas.width, atlas.height, atlas.texel,
+  std::snprintf(text, sizeof text,
+                "%zu charts in %dx%d texels of %.4g scene units; %.0f%% of them are covered\n", atlas.charts,
+                atlas.width, atlas.height, atlas.texel,
                 100.0 * static_cast<double>(touched) / static_cast<double>(map.coverage.size()));
   return text;
 }
@@ -104,8 +105,7 @@ void bake_map(const Bake& bake) {
   if (!store) return;
   const Lightmap map = baker.finish([&](std::size_t tile) { return store->read(tile); });
   write_map(bake, map, atlas);
-  if (!arguments.mesh.empty())
-    write_atlas_mesh(arguments.mesh, bake.scene.objects, atlas, bake.source.backs);
+  if (!arguments.mesh.empty()) write_atlas_mesh(arguments.mesh, bake.scene.objects, atlas, bake.source.backs);
   if (!arguments.picture.empty()) write_picture(bake, map, atlas);
   store->remove(parts.count);
   print(text_of(atlas, map));

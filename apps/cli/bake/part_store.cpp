@@ -36,8 +36,9 @@ PartStore::PartStore(std::filesystem::path folder, const nlohmann::json& setting
   if (!has_parts)
     write_json(settings_file(), settings);
   else if (text_of_file(settings_file()) != to_text(settings))
-    throw UsageError(folder_.string() +
-                     ": holds parts of another scene or other options; remove it, or name another by --parts");
+    throw UsageError(
+        folder_.string() +
+        ": holds parts of another scene or other options; remove it, or name another by --parts");
 }
 
 std::filesystem::path PartStore::file_of(std::size_t part) const {

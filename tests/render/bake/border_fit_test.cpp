@@ -35,8 +35,7 @@ TEST(BorderFit, ContinuesAPlaneBeyondTheBorder) {
       values.push_back(static_cast<float>(plane({at.x, std::clamp(at.y, 0.5, kSize - 0.5)})));
     }
   detail::fit_borders(kSize, kSize, samples, values, unknown, channel);
-  for (const std::uint32_t i : unknown)
-    EXPECT_NEAR(channel[i], plane({4.5, i / kSize + 0.5}), 2e-3) << i;
+  for (const std::uint32_t i : unknown) EXPECT_NEAR(channel[i], plane({4.5, i / kSize + 0.5}), 2e-3) << i;
 }
 
 TEST(BorderFit, WithoutSamplesNothingChanges) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/shapes.h"
@@ -60,14 +61,14 @@ TEST(FaceMeans, LightOnTheBackIsSeenFromThere) {
 
 TEST(FaceMeans, IrradianceIsThatOfTheLight) {
   const Casters casters(half_shadowed(-8.0));
-  // A small square of radiance 5, far above: E = 5 · area / distance².
-  const std::vector<Light> lights{
-      {.shape = RectangleLight{.center = {0, 200, 0}, .half_extents = {0.5, 0.5}}, .radiance = {5, 10, 0}}};
-  const auto lit = bake_faces(
-      {.casters = casters, .lights = lights, .quantity = BakeQuantity::kIrradiance}, 0, {.side = 4});
+  // A small disk of radiance 5, far above: E = 5 · area / distance².
+  const std::vector<Light> lights{{.shape = DiskLight{{0, 200, 0}, {0, -1, 0}, 0.5}, .radiance = {5, 10, 0}}};
+  const double factor = std::numbers::pi / 4.0 / 40000.0;
+  const auto lit = bake_faces({.casters = casters, .lights = lights, .quantity = BakeQuantity::kIrradiance},
+                              0, {.side = 4});
   ASSERT_EQ(lit.size(), 3u);
-  EXPECT_NEAR(lit[0][0], 5.0 / 40000.0, 1e-8);
-  EXPECT_NEAR(lit[1][0], 10.0 / 40000.0, 2e-8);
+  EXPECT_NEAR(lit[0][0], 5.0 * factor, 1e-3 * factor);
+  EXPECT_NEAR(lit[1][0], 10.0 * factor, 1e-3 * factor);
   EXPECT_EQ(lit[2][0], 0.0f);
 }
 

@@ -33,11 +33,12 @@ TEST_F(BakeCommandTest, WritesAMeshOrAnArray) {
 }
 
 TEST_F(BakeCommandTest, OfSeveralLightsEachHasAColumn) {
-  ASSERT_EQ(run({"bake", kRoom, "--object", "shelf.off", "--to", "faces", "--output", path("lit.ply")}).code, 0);
+  ASSERT_EQ(run({"bake", kRoom, "--object", "shelf.off", "--to", "faces", "--output", path("lit.ply")}).code,
+            0);
   for (const char* name : {"visibility_ceiling", "visibility_panel", "visibility_spot"})
     EXPECT_NE(read_text(path("lit.ply")).find(name), std::string::npos) << name;
-  ASSERT_EQ(run({"bake", kRoom, "--object", "4", "--to", "faces", "--light", "spot", "--light", "0", "--output",
-                 path("two.npy")})
+  ASSERT_EQ(run({"bake", kRoom, "--object", "4", "--to", "faces", "--light", "spot", "--light", "0",
+                 "--output", path("two.npy")})
                 .code,
             0);
   EXPECT_EQ(detail::read_npy_rows(path("two.npy")).columns, 2u);
@@ -49,8 +50,8 @@ TEST_F(BakeCommandTest, OfSeveralLightsEachHasAColumn) {
 }
 
 TEST_F(BakeCommandTest, WritesAMapAMeshAndAPicture) {
-  const Outcome baked = run({"bake", kRoom, "--lightmap", path("room.exr"), "--mesh", path("room.glb"), "--texels",
-                             "96", "--picture", path("lit.exr"), "--size", "48x36"});
+  const Outcome baked = run({"bake", kRoom, "--lightmap", path("room.exr"), "--mesh", path("room.glb"),
+                             "--texels", "96", "--picture", path("lit.exr"), "--size", "48x36"});
   ASSERT_EQ(baked.code, 0) << baked.err;
   EXPECT_NE(baked.out.find("charts in 96x96 texels"), std::string::npos) << baked.out;
   const Image map = read_exr(path("room.exr"));
@@ -72,8 +73,8 @@ TEST_F(BakeCommandTest, APictureByTheMapIsNearTheDirectOne) {
   ASSERT_EQ(run({"render", kRoom, "--output", path("direct.exr"), "--size", "160x120"}).code, 0);
   const Image direct = read_exr(path("direct.exr"));
   for (const char* quantity : {"visibility", "irradiance"}) {
-    ASSERT_EQ(run({"bake", kRoom, "--lightmap", path("m.exr"), "--quantity", quantity, "--picture", path("lit.exr"),
-                   "--size", "160x120"})
+    ASSERT_EQ(run({"bake", kRoom, "--lightmap", path("m.exr"), "--quantity", quantity, "--picture",
+                   path("lit.exr"), "--size", "160x120"})
                   .code,
               0);
     const Image lit = read_exr(path("lit.exr"));
@@ -89,9 +90,11 @@ TEST_F(BakeCommandTest, APictureByTheMapIsNearTheDirectOne) {
 
 TEST_F(BakeCommandTest, ARoomThatIsOneClosedMeshGetsLightOnTheBack) {
   write("box.off",
-        "OFF\n8 6 0\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n4 0 1 2 3\n4 5 4 7 6\n4 4 0 "
+        "OFF\n8 6 0\n-1 -1 -1\n1 -1 -1\n1 1 -1\n-1 1 -1\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n4 0 1 2 3\n4 5 4 7 "
+        "6\n4 4 0 "
         "3 7\n4 1 5 6 2\n4 3 2 6 7\n4 4 5 1 0\n");
-  const std::string scene = write("box.json", R"({"version": 1, "lights": [{"shape": "disk", "center": [0, 0.9, 0],
+  const std::string scene =
+      write("box.json", R"({"version": 1, "lights": [{"shape": "disk", "center": [0, 0.9, 0],
       "normal": [0, -1, 0], "radius": 0.2}], "camera": {"eye": [0, 0, 0.9], "target": [0, 0, 0], "up": [0, 1, 0],
       "fov_y_degrees": 90}, "objects": [{"mesh": "box.off"}]})");
   const auto seen = [&](std::vector<std::string> more) {
@@ -123,7 +126,8 @@ TEST_F(BakeCommandTest, SaysWhatItCannotDo) {
   EXPECT_NE(complaint({"--lightmap", path("x.exr"), "--light", "sun"}).find("ceiling"), std::string::npos);
   EXPECT_NE(complaint({"--lightmap", path("x.exr"), "--texels", "32", "--padding", "8"}).find("no room"),
             std::string::npos);
-  EXPECT_NE(complaint({"--lightmap", path("x.exr"), "--mesh", path("x.exr.glb"), "--to", "faces", "--output", path("y.ply")})
+  EXPECT_NE(complaint({"--lightmap", path("x.exr"), "--mesh", path("x.exr.glb"), "--to", "faces", "--output",
+                       path("y.ply")})
                 .find("--lightmap"),
             std::string::npos);
   EXPECT_TRUE(files().empty());
@@ -150,7 +154,8 @@ class BakePartsTest : public ProgramTest {};
 TEST_F(BakePartsTest, WhatIsThereIsNotDoneAgain) {
   const nlohmann::json settings = {{"scene", "a"}};
   Counted first{.fails_at = 4};
-  EXPECT_THROW(apps::bake_all(first.parts(), apps::PartStore(file("parts"), settings), nullptr, {}), SystemError);
+  EXPECT_THROW(apps::bake_all(first.parts(), apps::PartStore(file("parts"), settings), nullptr, {}),
+               SystemError);
   EXPECT_EQ(first.baked, 4);
   const apps::PartStore store(file("parts"), settings);
   Counted second;
