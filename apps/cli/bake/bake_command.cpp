@@ -1,107 +1,162 @@
-// penumbra bake: visibility averaged over the faces or around the vertices of an object, as PLY or NPY.
+// penumbra bake: light of surfaces, as a texture or over faces and around vertices.
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <ostream>
+#include <algorithm>
+#include <cstdio>
 
-#include "apps/cli/bake/bake.h"
+#include "apps/cli/bake/bake_arguments.h"
+#include "apps/cli/bake/bake_parts.h"
+#include "apps/cli/bake/bake_source.h"
+#include "apps/cli/bake/face_values.h"
+#include "apps/cli/bake/lightmap_picture.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/sun/receiver_set.h"
+#include "apps/cli/made_by.h"
+#include "apps/cli/ranks/shared_work.h"
 #include "apps/common/messages.h"
-#include "apps/common/method_options.h"
-#include "apps/common/options.h"
-#include "apps/common/outputs.h"
-#include "mesh/io/little_endian.h"
-#include "mesh/io/npy.h"
-#include "mesh/io/write_file.h"
 #include "penumbra/mesh/error.h"
+#include "penumbra/render/bake/atlas_mesh.h"
 
 namespace penumbra::apps {
 namespace {
 
 constexpr const char* kFooter = R"(Examples:
+  penumbra bake room.json --lightmap room.exr --mesh room.glb --picture lit.png
+  penumbra bake room.json --lightmap room.exr --quantity irradiance --texel 0.05
   penumbra bake scene.json --object 1 --to vertices --output lit.ply
-  penumbra bake city.json --object houses.off --to faces --side 8 --output lit.npy
-A value is the fraction of the light's area that is seen, 0 to 1, averaged over a face or around a vertex. PLY has the mesh and the
-property visibility; NPY has the values alone, float32, in the mesh's order. Without area a value is NaN.)";
+  mpirun -n 4 penumbra bake room.json --lightmap room.exr --texels 4096
+A visibility is the fraction of a light's area that is seen, 0 to 1. Lightmaps have the channels visibility.NAME of each light, or R G B of irradiance, and
+coverage, the share of each texel that faces cover. A bake that was ended goes on where it was when it is called again.)";
 
-struct Arguments {
-  CommonOptions common;
-  SceneInput scene;
-  std::string object = "0", to, light;
-  std::filesystem::path output;
-  BakeOptions bake;
+/// What all parts of one bake share.
+struct Bake {
+  const BakeArguments& arguments;
+  const Scene& scene;
+  const BakeSource& source;
+  /// Null where this process is alone.
+  Ranks* ranks;
+
+  bool is_helper() const { return ranks && ranks->rank() > 0; }
+
+  /// All parts, into the store that this returns; nothing for a rank that has helped.
+  std::optional<PartStore> run(const BakeParts& parts, const TextureAtlas* atlas) const {
+    if (is_helper()) {
+      help(parts, *ranks);
+      return std::nullopt;
+    }
+    std::optional<PartStore> store;
+    const auto work = [&] {
+      store.emplace(arguments.parts_folder(), settings_of(arguments, scene, atlas));
+      ProgressLine line("baking");
+      const std::size_t had = bake_all(parts, *store, ranks, line.callback());
+      if (had > 0 && arguments.common.verbose)
+        complain(std::to_string(had) + " of " + std::to_string(parts.count) + " parts were there already");
+    };
+    if (ranks)
+      or_abort(*ranks, work);
+    else
+      work();
+    return store;
+  }
 };
 
-void write_ply(std::ostream& out, const TriangleMesh& mesh, const std::vector<float>& values, bool vertices) {
-  const char* property = "property float visibility\n";
-  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.positions().size()
-      << "\nproperty double x\nproperty double y\nproperty double z\n"
-      << (vertices ? property : "") << "element face " << mesh.triangles().size()
-      << "\nproperty list uchar int vertex_indices\n"
-      << (vertices ? "" : property) << "end_header\n";
-  std::string bytes;
-  for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
-    for (int k = 0; k < 3; ++k) detail::append_little_endian(bytes, mesh.positions()[v][k]);
-    if (vertices) detail::append_little_endian(bytes, values[v]);
-  }
-  for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
-    detail::append_little_endian(bytes, std::uint8_t{3});
-    for (const std::uint32_t v : mesh.triangles()[f])
-      detail::append_little_endian(bytes, static_cast<std::int32_t>(v));
-    if (!vertices) detail::append_little_endian(bytes, values[f]);
-  }
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+void write_map(const Bake& bake, const Lightmap& map, const TextureAtlas& atlas) {
+  Image image{.width = map.width, .height = map.height, .channels = {}, .metadata = metadata_of(bake.scene)};
+  const std::vector<std::string> names = channel_names(bake.scene, bake.source.quantity);
+  for (std::size_t c = 0; c < names.size(); ++c) image.channels[names[c]] = map.channels[c];
+  image.channels["coverage"] = map.coverage;
+  image.metadata["penumbraBake"] = settings_of(bake.arguments, bake.scene, &atlas).dump();
+  write_exr(bake.arguments.lightmap, image);
 }
 
-void run(Arguments& arguments) {
-  require_extension("--output", arguments.output, {".ply", ".npy"}, false);
-  require_writable(arguments.output);
-  arguments.bake.vertices = arguments.to == "vertices";
-  const MethodInfo& method = method_named(arguments.bake.visibility.method);
-  if (method.needs_pixels) throw UsageError("method " + method.name + " takes pictures alone; use another");
+void write_picture(const Bake& bake, const Lightmap& map, const TextureAtlas& atlas) {
+  const BakeArguments& arguments = bake.arguments;
+  const PixelPair size = parse_size(arguments.picture_size);
+  Image image =
+      picture_by_lightmap(bake.scene, bake.source, atlas, map, size.x, size.y, arguments.common.threads);
+  if (extension_of(arguments.picture) == ".exr") {
+    image.metadata = metadata_of(bake.scene);
+    return write_exr(arguments.picture, image);
+  }
+  write_png(arguments.picture, image,
+            {.exposure_stops = arguments.exposure_stops, .background = bake.scene.picture.background});
+}
+
+std::string text_of(const TextureAtlas& atlas, const Lightmap& map) {
+  const auto touched = std::ranges::count_if(map.coverage, [](float c) { return c > 0.0f; });
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "%zu charts in %dx%d texels of %.4g scene units; %.0f%% of them are covered\n", atlas.charts,
+                atlas.width, atlas.height, atlas.texel,
+                100.0 * static_cast<double>(touched) / static_cast<double>(map.coverage.size()));
+  return text;
+}
+
+void bake_map(const Bake& bake) {
+  const BakeArguments& arguments = bake.arguments;
+  AtlasOptions options = arguments.atlas;
+  options.objects = object_numbers(bake.scene, arguments.objects);
+  const TextureAtlas atlas = make_atlas(bake.scene.objects, options);
+  const LightmapBaker baker(bake.source, atlas, arguments.map);
+  const BakeParts parts{
+      .count = baker.tiles(),
+      .values = [&](std::size_t tile) { return baker.values(tile); },
+      .cost = [&](std::size_t tile) { return static_cast<double>(baker.touched(tile)); },
+      .bake = [&](std::size_t tile, const Progress& progress) { return baker.bake(tile, progress); }};
+  const std::optional<PartStore> store = bake.run(parts, &atlas);
+  if (!store) return;
+  const Lightmap map = baker.finish([&](std::size_t tile) { return store->read(tile); });
+  write_map(bake, map, atlas);
+  if (!arguments.mesh.empty()) write_atlas_mesh(arguments.mesh, bake.scene.objects, atlas, bake.source.backs);
+  if (!arguments.picture.empty()) write_picture(bake, map, atlas);
+  store->remove(parts.count);
+  print(text_of(atlas, map));
+}
+
+void bake_object(const Bake& bake) {
+  const BakeArguments& arguments = bake.arguments;
+  const std::vector<std::size_t> objects = object_numbers(bake.scene, arguments.objects);
+  const std::size_t object = objects.empty() ? 0 : objects[0];
+  FaceMeansOptions options = arguments.faces;
+  options.place = arguments.to == "vertices" ? BakePlace::kVertices : BakePlace::kFaces;
+  const FaceMeans means(bake.source, object, options);
+  const BakeParts parts{
+      .count = means.parts(),
+      .values = [&](std::size_t part) { return means.values(part); },
+      .cost = [&](std::size_t part) { return static_cast<double>(means.faces(part)); },
+      .bake = [&](std::size_t part, const Progress& progress) { return means.bake(part, progress); }};
+  const std::optional<PartStore> store = bake.run(parts, nullptr);
+  if (!store) return;
+  write_values(arguments.output, bake.scene.objects[object].mesh, options.place == BakePlace::kVertices,
+               channel_names(bake.scene, bake.source.quantity),
+               means.finish([&](std::size_t part) { return store->read(part); }));
+  store->remove(parts.count);
+}
+
+void run(const BakeArguments& arguments) {
+  require_usable(arguments);
   const ThreadLimit limit(arguments.common.threads);
-  const Scene scene = load(arguments.scene);
-  require_apart({{"--output", arguments.output}}, scene.files);
-  const std::size_t object = object_index(scene, arguments.object);
-  const std::size_t light = arguments.light.empty() ? 0 : scene.light_index(arguments.light);
-  ProgressLine line("baking");
-  arguments.bake.visibility.progress = line.callback();
+  const Scene scene = chosen_scene(arguments, load(arguments.scene));
+  require_apart(arguments.outputs(), scene.files);
   const Casters casters(scene.objects, arguments.common.threads);
-  const std::vector<float> values = bake(casters, object, scene.lights[light].shape, arguments.bake);
-  write_file(arguments.output, [&](std::ostream& out) {
-    if (extension_of(arguments.output) == ".ply")
-      return write_ply(out, scene.objects[object].mesh, values, arguments.bake.vertices);
-    detail::write_npy_header(out, {values.size()});
-    out.write(reinterpret_cast<const char*>(values.data()),
-              static_cast<std::streamsize>(values.size() * sizeof(float)));
-  });
-  say_written(arguments.common.verbose, arguments.output);
+  const BakeSource source{.casters = casters,
+                          .lights = scene.lights,
+                          .quantity = arguments.bake_quantity(),
+                          .visibility = arguments.visibility,
+                          .backs = object_numbers(scene, arguments.backs)};
+  object_numbers(scene, arguments.objects);  // said before other processes are met
+  const std::unique_ptr<Ranks> ranks = Ranks::of_this_run();
+  const Bake bake{arguments, scene, source, ranks.get()};
+  arguments.is_lightmap() ? bake_map(bake) : bake_object(bake);
+  if (bake.is_helper()) return;
+  for (const Output& output : arguments.outputs())
+    if (!output.path.empty()) say_written(arguments.common.verbose, output.path);
 }
 
 }  // namespace
 
 void add_bake_command(CLI::App& app) {
-  CLI::App& command =
-      *app.add_subcommand("bake", "Visibility averaged over the faces or around the vertices of an object");
-  auto arguments = std::make_shared<Arguments>();
-  add_scene_input(command, arguments->scene);
-  command.add_option("--to", arguments->to, "faces or vertices")
-      ->check(CLI::IsMember({"faces", "vertices"}))
-      ->required();
-  command.add_option("-o,--output", arguments->output, "PLY or NPY")->required()->type_name("FILE");
-  command.add_option("--object", arguments->object, "The object, by name or number")
-      ->capture_default_str()
-      ->type_name("NAME|N");
-  command.add_option("--light", arguments->light, "The light, by name or number; otherwise the first")
-      ->type_name("NAME|N");
-  command.add_option("--side", arguments->bake.side, "Each face is looked at in the middle of N² parts")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str()
-      ->type_name("N");
-  command.add_option("-m,--method", arguments->bake.visibility.method, "How visibility is computed")
-      ->capture_default_str();
-  add_method_options(command, arguments->bake.visibility.options);
-  add_common_options(command, arguments->common);
+  CLI::App& command = *app.add_subcommand("bake", "Light of surfaces, as a texture or of faces and vertices");
+  auto arguments = std::make_shared<BakeArguments>();
+  add_bake_options(command, *arguments);
   command.footer(kFooter);
   command.callback([arguments] { run(*arguments); });
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "apps/cli/ranks/ranks.h"
+#include "apps/cli/ranks/shared_work.h"
 #include "apps/cli/study/case_study.h"
 #include "apps/cli/study/page/study_page.h"
-#include "apps/cli/study/ranks/ranks.h"
-#include "apps/cli/study/ranks/shared_work.h"
 #include "apps/cli/study/study_cases.h"
 #include "apps/cli/study/study_plan.h"
 #include "apps/cli/study/study_record.h"
@@ -56,14 +56,16 @@ class Bench {
  public:
   Bench(const StudyCases& cases, std::span<const Peer> peers) : cases_(cases), peers_(peers) {}
 
-  UnitResult measure(const StudyUnit& unit) {
+  /// From bytes to bytes.
+  std::string measure(const std::string& bytes) {
+    const StudyUnit unit = unit_of(bytes);
     if (!study_ || number_ != unit.case_number) {
       study_.reset();
       number_ = unit.case_number;
       study_ = std::make_unique<CaseStudy>(cases_.options(number_), peers_, cases_.path(number_),
                                            cases_.make(number_));
     }
-    return study_->measure(unit.rows);
+    return to_bytes(study_->measure(unit.rows));
   }
 
  private:
@@ -73,34 +75,54 @@ class Bench {
   std::unique_ptr<CaseStudy> study_;
 };
 
+/// The plan, and the record that results go into.
+class StudyWork : public WorkPlan {
+ public:
+  StudyWork(StudyPlan plan, StudyRecord& record) : plan_(std::move(plan)), record_(record) {}
+
+  std::optional<std::string> next(int worker) override {
+    const std::optional<StudyUnit> unit = plan_.next(worker);
+    if (!unit) return std::nullopt;
+    case_of_[worker] = unit->case_number;
+    return to_bytes(*unit);
+  }
+  void finish(int worker, const std::string& bytes) override {
+    const UnitResult result = result_of(bytes);
+    plan_.finish(worker);
+    measured_ += record_.add(result);
+    if (!result.complaint.empty()) complain(result.complaint);
+    if (plan_.case_done(case_of_.at(worker))) write();
+  }
+  void lose(int worker) override { plan_.lose(worker); }
+  bool done() const override { return plan_.done(); }
+  double fraction() const override { return plan_.fraction(); }
+
+  /// Rows.
+  std::size_t measured() const { return measured_; }
+  void write() const {
+    write_tables(record_);
+    write_page(record_);
+  }
+
+ private:
+  StudyPlan plan_;
+  StudyRecord& record_;
+  std::map<int, std::size_t> case_of_;  ///< by worker
+  std::size_t measured_ = 0;
+};
+
 /// Returns how many rows were measured. `ranks` may be null.
 std::size_t plan_and_write(const StudyOptions& options, const StudyCases& cases, std::span<const Peer> peers,
                            Bench& bench, Ranks* ranks, const Progress& progress) {
   StudyRecord record(options.output, about_of(options, ranks ? ranks->size() : 1));
-  StudyPlan plan(cases, record, peers, at_hand(peers, options), ranks ? 1 : kGroup);
-  std::size_t measured = 0;
-  const auto write = [&record] {
-    write_tables(record);
-    write_page(record);
-  };
-  const TakeResult take = [&](std::size_t number, const UnitResult& result) {
-    measured += record.add(result);
-    if (!result.complaint.empty()) complain(result.complaint);
-    if (plan.case_done(number)) write();
-  };
-  const MeasureUnit measure = [&bench](const StudyUnit& unit) { return bench.measure(unit); };
-  if (ranks) {
-    lead(*ranks, plan, measure, take, progress);
-  } else {
-    while (const auto unit = plan.next(0)) {
-      report(progress, plan.fraction());
-      const UnitResult result = measure(*unit);
-      plan.finish(0);
-      take(unit->case_number, result);
-    }
-  }
-  if (measured == 0) write();
-  return measured;
+  StudyWork work(StudyPlan(cases, record, peers, at_hand(peers, options), ranks ? 1 : kGroup), record);
+  const DoUnit measure = [&bench](const std::string& unit) { return bench.measure(unit); };
+  if (ranks)
+    lead(*ranks, work, measure, progress);
+  else
+    work_alone(work, measure, progress);
+  if (work.measured() == 0) work.write();
+  return work.measured();
 }
 
 }  // namespace
@@ -112,7 +134,7 @@ std::optional<std::size_t> run_study(const StudyOptions& options, const Progress
   Bench bench(cases, peers);
   if (!ranks || ranks->rank() == 0)
     return plan_and_write(options, cases, peers, bench, ranks.get(), progress);
-  follow(*ranks, [&bench](const StudyUnit& unit) { return bench.measure(unit); });
+  follow(*ranks, [&bench](const std::string& unit) { return bench.measure(unit); });
   return std::nullopt;
 }
 

@@ -39,7 +39,7 @@ struct StudyOptions {
 };
 
 /// Measures the rows that DIR does not have and writes rows.jsonl, study.json, study.csv, pictures/ and index.html there.
-/// Returns how many rows were measured. Under mpirun only rank 0 writes; the others measure with it (ranks/) and return nothing.
+/// Returns how many rows were measured. Under mpirun only rank 0 writes; the others measure with it (../ranks/) and return nothing.
 /// Throws UsageError where DIR's rows were measured by something else.
 std::optional<std::size_t> run_study(const StudyOptions& options, const Progress& progress = {});
 

@@ -1,4 +1,4 @@
-// study: what is measured at once, and what comes of it. Both can be sent as bytes (ranks/).
+// study: what is measured at once, and what comes of it. Both can be sent as bytes (../ranks/).
 #pragma once
 
 #include <map>

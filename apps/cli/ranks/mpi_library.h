@@ -1,4 +1,4 @@
-// study: what the program needs of MPI, as functions of a library of its own (mpi_library.cpp) that is opened where mpirun has started
+// What the program needs of MPI, as functions of a library of its own (mpi_library.cpp) that is opened where mpirun has started
 // the program: MPI's libraries cost every other start of it memory and time.
 #pragma once
 

@@ -1,11 +1,11 @@
-#include "apps/cli/study/ranks/ranks.h"
+#include "apps/cli/ranks/ranks.h"
 
 #include <dlfcn.h>
 
 #include <cstdlib>
 #include <filesystem>
 
-#include "apps/cli/study/ranks/mpi_library.h"
+#include "apps/cli/ranks/mpi_library.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {
@@ -35,7 +35,7 @@ std::unique_ptr<Ranks> Ranks::of_this_run() {
   const MpiLibrary* library = open_library();
   if (!library)
     throw UsageError(
-        "this penumbra was built without MPI, and cannot share a study with others; run it alone");
+        "this penumbra was built without MPI, and cannot share its work with others; run it alone");
   int rank = 0, size = 1;
   if (!library->start(&rank, &size)) throw UsageError("this MPI allows one thread only");
   return std::unique_ptr<Ranks>(new Ranks(*library, rank, size));

@@ -1,4 +1,4 @@
-#include "apps/cli/study/ranks/mpi_library.h"
+#include "apps/cli/ranks/mpi_library.h"
 
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1

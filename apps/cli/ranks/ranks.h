@@ -1,4 +1,4 @@
-// study: the processes of `mpirun -n K penumbra study`. MPI is optional when Penumbra is built, and its
+// The processes of `mpirun -n K penumbra study` or `bake`. MPI is optional when Penumbra is built, and its
 // libraries are opened where mpirun has started the program, nowhere else.
 #pragma once
 

@@ -1,6 +1,7 @@
-#include "apps/cli/study/ranks/shared_work.h"
+#include "apps/cli/ranks/shared_work.h"
 
 #include <chrono>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -16,21 +17,20 @@ constexpr std::chrono::milliseconds kPause = 5ms, kBetweenSigns = 1s, kGone = 15
 
 enum Tag : int { kAsk = 1, kResult, kAlive, kUnit, kWait, kStop };
 
-/// What rank 0's two threads share: the one that measures, and the one that answers.
+/// What rank 0's two threads share: the one that works, and the one that answers.
 class Leader {
  public:
-  Leader(Ranks& ranks, StudyPlan& plan, const TakeResult& take) : ranks_(ranks), plan_(plan), take_(take) {
+  Leader(Ranks& ranks, WorkPlan& plan) : ranks_(ranks), plan_(plan) {
     for (int rank = 1; rank < ranks.size(); ++rank) last_sign_[rank] = Clock::now();
   }
 
-  std::optional<StudyUnit> next() {
+  std::optional<std::string> next() {
     const std::lock_guard lock(mutex_);
     return plan_.next(0);
   }
-  void finish(int worker, std::size_t case_number, const UnitResult& result) {
+  void finish(const std::string& result) {
     const std::lock_guard lock(mutex_);
-    plan_.finish(worker);
-    take_(case_number, result);
+    plan_.finish(0, result);
   }
   bool done() {
     const std::lock_guard lock(mutex_);
@@ -56,16 +56,13 @@ class Leader {
     if (!last_sign_.contains(message.from)) return;  // it was taken for gone
     last_sign_[message.from] = Clock::now();
     if (message.tag == kResult) {
-      const UnitResult result = result_of(message.bytes);
       const std::lock_guard lock(mutex_);
-      const std::size_t number = units_.at(message.from).case_number;
-      plan_.finish(message.from);
-      take_(number, result);
+      plan_.finish(message.from, message.bytes);
     }
     if (message.tag == kAsk) give(message.from);
   }
   void give(int rank) {
-    std::optional<StudyUnit> unit;
+    std::optional<std::string> unit;
     bool done = false;
     {
       const std::lock_guard lock(mutex_);
@@ -73,8 +70,7 @@ class Leader {
       done = plan_.done();
     }
     if (unit) {
-      units_[rank] = *unit;
-      ranks_.send(rank, kUnit, to_bytes(*unit));
+      ranks_.send(rank, kUnit, *unit);
     } else if (done) {
       home_.insert(rank);
       ranks_.send(rank, kStop);
@@ -96,24 +92,12 @@ class Leader {
   }
 
   Ranks& ranks_;
-  StudyPlan& plan_;
-  const TakeResult& take_;
+  WorkPlan& plan_;
   std::mutex mutex_;
   std::map<int, Clock::time_point> last_sign_;
-  std::map<int, StudyUnit> units_;
   std::set<int> home_;
   bool gone_ = false;
 };
-
-/// What fails on one rank ends all: the others would wait for it.
-void or_abort(Ranks& ranks, const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const std::exception& error) {
-    complain(error.what());
-    ranks.abort();
-  }
-}
 
 RankMessage wait_for_message(Ranks& ranks) {
   while (true) {
@@ -124,22 +108,30 @@ RankMessage wait_for_message(Ranks& ranks) {
 
 }  // namespace
 
-void lead(Ranks& ranks, StudyPlan& plan, const MeasureUnit& measure, const TakeResult& take,
-          const Progress& progress) {
-  Leader leader(ranks, plan, take);
+void or_abort(Ranks& ranks, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    complain(error.what());
+    ranks.abort();
+  }
+}
+
+void lead(Ranks& ranks, WorkPlan& plan, const DoUnit& work, const Progress& progress) {
+  Leader leader(ranks, plan);
   std::jthread answers([&] { or_abort(ranks, [&] { leader.answer_all(); }); });
   or_abort(ranks, [&] {
     while (!leader.done()) {
       report(progress, leader.fraction());
       if (const auto unit = leader.next())
-        leader.finish(0, unit->case_number, measure(*unit));
+        leader.finish(work(*unit));
       else
         std::this_thread::sleep_for(kLater);
     }
   });
 }
 
-void follow(Ranks& ranks, const MeasureUnit& measure) {
+void follow(Ranks& ranks, const DoUnit& work) {
   std::jthread signs([&ranks](const std::stop_token& stop) {
     for (auto next = Clock::now(); !stop.stop_requested(); std::this_thread::sleep_for(kPause)) {
       if (Clock::now() < next) continue;
@@ -153,11 +145,18 @@ void follow(Ranks& ranks, const MeasureUnit& measure) {
       const RankMessage message = wait_for_message(ranks);
       if (message.tag == kStop) return;
       if (message.tag == kUnit)
-        ranks.send(0, kResult, to_bytes(measure(unit_of(message.bytes))));
+        ranks.send(0, kResult, work(message.bytes));
       else
         std::this_thread::sleep_for(kLater);
     }
   });
+}
+
+void work_alone(WorkPlan& plan, const DoUnit& work, const Progress& progress) {
+  while (const auto unit = plan.next(0)) {
+    report(progress, plan.fraction());
+    plan.finish(0, work(*unit));
+  }
 }
 
 }  // namespace penumbra::apps
