@@ -26,19 +26,19 @@ std::vector<Vec3> centers(int side) {
 
 /// Receivers on all faces that have an area, as many on each.
 struct OnFaces {
-  OnFaces(const TriangleMesh& mesh, std::size_t object, const std::vector<Vec3>& places) {
-    const auto p = mesh.positions();
-    for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f) {
-      const IndexedTriangle& t = mesh.triangles()[f];
-      const Vec3 n = glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
+  OnFaces(const Surface& surface, const std::vector<Vec3>& places) {
+    const auto& p = surface.positions;
+    for (std::uint32_t f = 0; f < surface.triangles.size(); ++f) {
+      const IndexedTriangle& t = surface.triangles[f];
+      const Vec3 n = surface.cross(f);
       if (!(glm::length(n) > 0.0)) continue;
       areas.push_back(0.5 * glm::length(n));
       of.push_back(f);
       for (const Vec3& b : places) {
         points.push_back(b.x * p[t[0]] + b.y * p[t[1]] + b.z * p[t[2]]);
         normals.push_back(glm::normalize(n));
-        objects.push_back(static_cast<std::int32_t>(object));
-        faces.push_back(f);
+        objects.push_back(surface.objects[f]);
+        faces.push_back(surface.faces[f]);
       }
     }
   }
@@ -72,13 +72,12 @@ struct Means {
 
 }  // namespace
 
-std::vector<float> bake(const Casters& casters, std::size_t object, const LightShape& light,
+std::vector<float> bake(const Casters& casters, const Surface& surface, const LightShape& light,
                         const BakeOptions& options) {
-  const TriangleMesh& mesh = casters.objects().at(object).mesh;
   const std::vector<Vec3> places = centers(options.side);
-  const OnFaces on(mesh, object, places);
+  const OnFaces on(surface, places);
   const std::vector<float> seen = visibility(casters, light, on.receivers(), options.visibility).visibility;
-  Means means(options.vertices ? mesh.positions().size() : mesh.triangles().size());
+  Means means(options.vertices ? surface.positions.size() : surface.triangles.size());
   for (std::size_t i = 0; i < on.of.size(); ++i)
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double value = seen[i * places.size() + k];
@@ -86,7 +85,7 @@ std::vector<float> bake(const Casters& casters, std::size_t object, const LightS
         means.add(on.of[i], value, 1.0);
         continue;
       }
-      const IndexedTriangle& t = mesh.triangles()[on.of[i]];
+      const IndexedTriangle& t = surface.triangles[on.of[i]];
       for (int corner = 0; corner < 3; ++corner)
         means.add(t[static_cast<std::size_t>(corner)], value, on.areas[i] * places[k][corner]);
     }

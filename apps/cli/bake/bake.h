@@ -1,8 +1,9 @@
-// Visibility averaged over the faces or around the vertices of an object.
+// Visibility averaged over the faces or around the vertices of a surface.
 #pragma once
 
 #include <vector>
 
+#include "apps/cli/sun/surface.h"
 #include "penumbra/render/visibility.h"
 
 namespace penumbra::apps {
@@ -17,7 +18,7 @@ struct BakeOptions {
 
 /// One value a face: the mean of its receivers. Or one a vertex: the mean over its faces, weighted by area and by the hat function, which is 1 at
 /// the vertex and 0 at its neighbors. NaN for a face without area, and for a vertex that has no other. Throws as `visibility` does.
-std::vector<float> bake(const Casters& casters, std::size_t object, const LightShape& light,
+std::vector<float> bake(const Casters& casters, const Surface& surface, const LightShape& light,
                         const BakeOptions& options);
 
 }  // namespace penumbra::apps

@@ -5,7 +5,7 @@
 
 #include "apps/cli/bake/bake.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/sun/receiver_set.h"
+#include "apps/cli/sun/surface.h"
 #include "apps/common/messages.h"
 #include "apps/common/method_options.h"
 #include "apps/common/options.h"
@@ -21,6 +21,7 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   penumbra bake scene.json --object 1 --to vertices --output lit.ply
   penumbra bake city.json --object houses.off --to faces --side 8 --output lit.npy
+  penumbra bake valley.json --object dem.tif --to vertices --output lit.ply
 A value is the fraction of the light's area that is seen, 0 to 1, averaged over a face or around a vertex. PLY has the mesh and the
 property visibility; NPY has the values alone, float32, in the mesh's order. Without area a value is NaN.)";
 
@@ -32,21 +33,21 @@ struct Arguments {
   BakeOptions bake;
 };
 
-void write_ply(std::ostream& out, const TriangleMesh& mesh, const std::vector<float>& values, bool vertices) {
+void write_ply(std::ostream& out, const Surface& surface, const std::vector<float>& values, bool vertices) {
   const char* property = "property float visibility\n";
-  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.positions().size()
+  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << surface.positions.size()
       << "\nproperty double x\nproperty double y\nproperty double z\n"
-      << (vertices ? property : "") << "element face " << mesh.triangles().size()
+      << (vertices ? property : "") << "element face " << surface.triangles.size()
       << "\nproperty list uchar int vertex_indices\n"
       << (vertices ? "" : property) << "end_header\n";
   std::string bytes;
-  for (std::size_t v = 0; v < mesh.positions().size(); ++v) {
-    for (int k = 0; k < 3; ++k) detail::append_little_endian(bytes, mesh.positions()[v][k]);
+  for (std::size_t v = 0; v < surface.positions.size(); ++v) {
+    for (int k = 0; k < 3; ++k) detail::append_little_endian(bytes, surface.positions[v][k]);
     if (vertices) detail::append_little_endian(bytes, values[v]);
   }
-  for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
     detail::append_little_endian(bytes, std::uint8_t{3});
-    for (const std::uint32_t v : mesh.triangles()[f])
+    for (const std::uint32_t v : surface.triangles[f])
       detail::append_little_endian(bytes, static_cast<std::int32_t>(v));
     if (!vertices) detail::append_little_endian(bytes, values[f]);
   }
@@ -62,15 +63,15 @@ void run(Arguments& arguments) {
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = load(arguments.scene);
   require_apart({{"--output", arguments.output}}, scene.files);
-  const std::size_t object = object_index(scene, arguments.object);
+  const Surface surface = surface_of(scene, arguments.object);
   const std::size_t light = arguments.light.empty() ? 0 : scene.light_index(arguments.light);
   ProgressLine line("baking");
   arguments.bake.visibility.progress = line.callback();
   const Casters casters(scene.objects, arguments.common.threads);
-  const std::vector<float> values = bake(casters, object, scene.lights[light].shape, arguments.bake);
+  const std::vector<float> values = bake(casters, surface, scene.lights[light].shape, arguments.bake);
   write_file(arguments.output, [&](std::ostream& out) {
     if (extension_of(arguments.output) == ".ply")
-      return write_ply(out, scene.objects[object].mesh, values, arguments.bake.vertices);
+      return write_ply(out, surface, values, arguments.bake.vertices);
     detail::write_npy_header(out, {values.size()});
     out.write(reinterpret_cast<const char*>(values.data()),
               static_cast<std::streamsize>(values.size() * sizeof(float)));
@@ -89,7 +90,7 @@ void add_bake_command(CLI::App& app) {
       ->check(CLI::IsMember({"faces", "vertices"}))
       ->required();
   command.add_option("-o,--output", arguments->output, "PLY or NPY")->required()->type_name("FILE");
-  command.add_option("--object", arguments->object, "The object, by name or number")
+  command.add_option("--object", arguments->object, "The object or heightfield, by name or number")
       ->capture_default_str()
       ->type_name("NAME|N");
   command.add_option("--light", arguments->light, "The light, by name or number; otherwise the first")

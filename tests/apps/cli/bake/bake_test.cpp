@@ -12,8 +12,6 @@
 namespace penumbra::test {
 namespace {
 
-using apps::bake;
-
 /// A floor of two triangles, 2 by 2, and a plate high above whose shadow ends at x = `edge` under a light from above.
 std::vector<SceneObject> half_shadowed(double edge) {
   const std::vector<Vec3> floor{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
@@ -25,9 +23,15 @@ std::vector<SceneObject> half_shadowed(double edge) {
 
 const LightShape kAbove = DistantLight{{0, -1, 0}, 0.1};  // a penumbra of 1/200
 
+/// Of the floor.
+std::vector<float> baked(double edge, const apps::BakeOptions& options) {
+  Scene scene;
+  scene.objects = half_shadowed(edge);
+  return apps::bake(Casters(scene.objects), apps::surface_of(scene, "floor"), kAbove, options);
+}
+
 TEST(Bake, FacesGetTheirShareOfLight) {
-  const Casters casters(half_shadowed(0.0));
-  const std::vector<float> lit = bake(casters, 0, kAbove, {.side = 32});
+  const std::vector<float> lit = baked(0.0, {.side = 32});
   ASSERT_EQ(lit.size(), 2u);
   // The diagonal from (-1, -1) to (1, 1) leaves 3/4 of the first triangle on the lit side, and 1/4 of the second.
   EXPECT_NEAR(lit[0], 0.75, 0.02);
@@ -35,8 +39,7 @@ TEST(Bake, FacesGetTheirShareOfLight) {
 }
 
 TEST(Bake, VerticesGetTheMeanAroundThem) {
-  const Casters casters(half_shadowed(0.0));
-  const std::vector<float> lit = bake(casters, 0, kAbove, {.side = 32, .vertices = true});
+  const std::vector<float> lit = baked(0.0, {.side = 32, .vertices = true});
   ASSERT_EQ(lit.size(), 4u);
   // Of the vertex at (1, -1), whose hat function on its one triangle is (x - z) / 2: the integral over x > 0 is 7/12, of 8/12 in all.
   EXPECT_NEAR(lit[1], 0.875, 0.02);
@@ -46,10 +49,8 @@ TEST(Bake, VerticesGetTheMeanAroundThem) {
 
 TEST(Bake, EverywhereLitIsOneAndHiddenIsZero) {
   for (const bool vertices : {false, true}) {
-    for (const float value : bake(Casters(half_shadowed(-8.0)), 0, kAbove, {.side = 3, .vertices = vertices}))
-      EXPECT_EQ(value, 1.0f);
-    for (const float value : bake(Casters(half_shadowed(8.0)), 0, kAbove, {.side = 3, .vertices = vertices}))
-      EXPECT_EQ(value, 0.0f);
+    for (const float value : baked(-8.0, {.side = 3, .vertices = vertices})) EXPECT_EQ(value, 1.0f);
+    for (const float value : baked(8.0, {.side = 3, .vertices = vertices})) EXPECT_EQ(value, 0.0f);
   }
 }
 
