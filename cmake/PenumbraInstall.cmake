@@ -50,9 +50,9 @@ penumbra_component(volumes "umbra and penumbra volumes of meshes under a disk li
                    NEEDS mesh PACKAGES TBB MODULES tbb gmp mpfr)
 penumbra_component(checks "checks and repair of volumes and meshes (with CGAL packages under the GPL)"
                    NEEDS volumes PACKAGES TBB MODULES tbb gmp mpfr)
-# Where the loader finds the module that writes OpenVDB's grids.
+# Where the loader finds the modules of OpenVDB and GDAL.
 set(module_flags -ldl)
-if(TARGET penumbra_vdb)
+if(TARGET penumbra_vdb OR TARGET penumbra_gdal)
   list(APPEND module_flags "-Wl,-rpath,\${libdir}/penumbra")
 endif()
 penumbra_component(visibility "visibility of a light from points, without OpenGL"

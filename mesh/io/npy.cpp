@@ -15,8 +15,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
 
 constexpr std::string_view kMagic = "\x93NUMPY";
-constexpr const char* kAdvice =
-    "save it by numpy.save as an array of float32 or float64 of shape (n, 3) or (n, 6)";
 
 /// What stands after 'key': in the header's dictionary; empty where the key is missing.
 std::string_view entry(std::string_view header, std::string_view key) {
@@ -44,9 +42,10 @@ bool parse_shape(std::string_view text, NpyRows& out) {
 }
 
 /// The header's text, and where the values begin.
-std::pair<std::string_view, std::size_t> header_of(std::string_view text, const std::string& name) {
+std::pair<std::string_view, std::size_t> header_of(std::string_view text, const std::string& name,
+                                                   const char* advice) {
   if (!text.starts_with(kMagic) || text.size() < 12)
-    fail_reading(name, "byte 0", "does not begin as a NumPy array does", kAdvice);
+    fail_reading(name, "byte 0", "does not begin as a NumPy array does", advice);
   const auto byte = [&](std::size_t i) { return std::size_t{static_cast<unsigned char>(text[i])}; };
   const bool old = text[6] == 1;
   const std::size_t begin = old ? 10 : 12;
@@ -91,13 +90,13 @@ void write_npy_header(std::ostream& out, const std::vector<std::size_t>& shape) 
   out << header;
 }
 
-NpyRows read_npy_rows(const std::filesystem::path& path) {
+NpyRows read_npy_rows(const std::filesystem::path& path, const char* advice) {
   const std::string name = path.string();
   const std::vector<std::byte> bytes = read_bytes(path);
-  const auto [header, begin] = header_of(as_text(bytes), name);
+  const auto [header, begin] = header_of(as_text(bytes), name, advice);
   NpyRows out;
   if (!parse_shape(entry(header, "shape"), out))
-    fail_reading(name, "header", "the array has not two dimensions", kAdvice);
+    fail_reading(name, "header", "the array has not two dimensions", advice);
   const std::string_view type = entry(header, "descr").substr(0, 5);
   const bool fortran = entry(header, "fortran_order").starts_with("True");
   const auto order = type.starts_with("'>") ? std::endian::big : std::endian::little;
@@ -107,7 +106,7 @@ NpyRows read_npy_rows(const std::filesystem::path& path) {
   else if (type == "'<f4'" || type == "'>f4'")
     read_values<float>(values, name, order, fortran, out);
   else
-    fail_reading(name, "header", "the numbers are of another type than float32 and float64", kAdvice);
+    fail_reading(name, "header", "the numbers are of another type than float32 and float64", advice);
   return out;
 }
 

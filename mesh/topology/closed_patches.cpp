@@ -156,7 +156,7 @@ std::vector<std::uint32_t> Patches::patches_by_area() const {
   for (std::uint32_t f = 0; f < triangles_.size(); ++f) {
     if (aside_[patch_[f]] || shares_[patch_[f]].empty()) continue;
     IndexedTriangle t = triangles_[f];
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     faces[patch_[f]].push_back(t);
   }
   std::vector<Candidate> candidates;

@@ -90,7 +90,7 @@ std::vector<Spoke> Pairing::spokes_of(const std::vector<std::uint32_t>& faces) c
   double width = spokes[0].angle + 2.0 * std::numbers::pi - spokes.back().angle;
   for (std::size_t i = 1; i < spokes.size(); ++i)
     if (const double gap = spokes[i].angle - spokes[i - 1].angle; gap > width) widest = i, width = gap;
-  std::ranges::rotate(spokes, spokes.begin() + static_cast<std::ptrdiff_t>(widest));
+  std::rotate(spokes.begin(), spokes.begin() + static_cast<std::ptrdiff_t>(widest), spokes.end());
   for (std::size_t i = spokes.size() - widest; i < spokes.size(); ++i)
     spokes[i].angle += 2.0 * std::numbers::pi;
   for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
@@ -115,7 +115,7 @@ void Pairing::pair_by_angle(const std::vector<std::uint32_t>& faces) {
     depth += spokes[i].ends_solid ? -1 : 1;
     if (depth < least) least = depth, start = i + 1;
   }
-  std::ranges::rotate(spokes, spokes.begin() + static_cast<std::ptrdiff_t>(start % spokes.size()));
+  std::rotate(spokes.begin(), spokes.begin() + static_cast<std::ptrdiff_t>(start % spokes.size()), spokes.end());
   std::vector<std::uint32_t> begun;
   for (const Spoke& spoke : spokes) {
     if (!spoke.ends_solid) {

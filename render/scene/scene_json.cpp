@@ -6,6 +6,7 @@
 #include "mesh/corner_normals.h"
 #include "penumbra/mesh/error.h"
 #include "render/scene/default_scene.h"
+#include "render/scene/heightfield/height_tiles.h"
 #include "render/scene/scene_lights.h"
 #include "render/scene/scene_limits.h"
 #include "render/scene/scene_mesh.h"
@@ -75,12 +76,8 @@ SceneObject::Fade read_fade(const SceneNode& node) {
   return {ends[0], ends[1]};
 }
 
-SceneObject read_object(const SceneNode& node, const std::filesystem::path& folder, MeshCache& meshes) {
-  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "smooth", "casts",
-                   "shadow_catcher", "fade"});
-  const SceneNode mesh = node.required("mesh");
-  SceneObject object{.name = mesh.text()};
-  read_object_mesh(node, mesh, folder, meshes, object);
+/// All but the shape.
+void read_looks(const SceneNode& node, SceneObject& object) {
   if (const auto albedo = node.find("albedo")) {
     object.albedo = albedo->number_or_vec3();
     object.face_albedo = {};
@@ -90,7 +87,50 @@ SceneObject read_object(const SceneNode& node, const std::filesystem::path& fold
   if (const auto casts = node.find("casts")) object.casts = casts->boolean();
   if (const auto catcher = node.find("shadow_catcher")) object.shadow_catcher = catcher->boolean();
   if (const auto fade = node.find("fade")) object.fade = read_fade(*fade);
+}
+
+SceneObject read_mesh_object(const SceneNode& node, const std::filesystem::path& folder, MeshCache& meshes) {
+  node.allow_only({"mesh", "matrix", "translation", "rotation", "scale", "albedo", "smooth", "casts",
+                   "shadow_catcher", "fade"});
+  const SceneNode mesh = node.required("mesh");
+  SceneObject object{.name = mesh.text()};
+  read_object_mesh(node, mesh, folder, meshes, object);
+  read_looks(node, object);
   return object;
+}
+
+std::size_t read_tile_side(const SceneNode& node) {
+  constexpr double kMost = 4096.0;
+  const double side = node.number();
+  if (!(side >= 1.0 && side <= kMost && side == std::floor(side)))
+    node.fail("is " + to_text(side) + "; must be a whole number from 1 to " + to_text(kMost));
+  return static_cast<std::size_t>(side);
+}
+
+/// One object a tile, named FILE[ROW,COLUMN].
+void add_heightfield(const SceneNode& node, const SceneNode& file, const std::filesystem::path& folder,
+                     Scene& scene) {
+  node.allow_only({"heightfield", "tile", "matrix", "translation", "rotation", "scale", "albedo", "smooth",
+                   "casts", "shadow_catcher", "fade"});
+  const std::string name = file.text();
+  if (name.empty()) file.fail("is empty; name a file of heights");
+  SceneObject object;
+  read_looks(node, object);
+  TileOptions options;
+  if (const auto tile = node.find("tile")) options.side = read_tile_side(*tile);
+  if (const auto smooth = node.find("smooth")) options.smooth = smooth->boolean();
+  const Transform transform = read_transform(node);
+  try {
+    for (HeightTile& tile : make_tiles(read_heights(folder / name), transform, options)) {
+      SceneObject& added = scene.objects.emplace_back(object);
+      added.name = name + "[" + std::to_string(tile.row) + "," + std::to_string(tile.column) + "]";
+      added.mesh = std::move(tile.mesh);
+      added.corner_normals = std::move(tile.corner_normals);
+    }
+  } catch (const MeshError& e) {
+    throw MeshError(file.located(e.what()));
+  }
+  scene.files.push_back(folder / name);
 }
 
 Background read_background(const SceneNode& node) {
@@ -139,9 +179,13 @@ LoadedScene read_scene(const nlohmann::json& document, const std::filesystem::pa
 
   const SceneNode objects = root.required("objects");
   MeshCache meshes;
-  for (const SceneNode& node : objects.elements()) scene.objects.push_back(read_object(node, folder, meshes));
+  for (const SceneNode& node : objects.elements())
+    if (const auto heights = node.find("heightfield"))
+      add_heightfield(node, *heights, folder, scene);
+    else
+      scene.objects.push_back(read_mesh_object(node, folder, meshes));
   if (scene.objects.empty()) objects.fail("is empty; add an object");
-  scene.files = meshes.files();
+  for (const std::filesystem::path& file : meshes.files()) scene.files.push_back(file);
   if (!camera) scene.camera = camera_for(scene.bounds());
 
   if (const std::string complaint = out_of_range(scene); !complaint.empty())

@@ -86,7 +86,10 @@ void take_material_colors(const MeshCache::Entry& entry, SceneObject& object) {
 void take_normals(const MeshCache::Entry& entry, const Transform& transform, SceneObject& object) {
   if (entry.normals.empty()) return;
   const auto& [x, y, z] = transform.columns;
-  const std::array<Vec3, 3> turned = {glm::cross(y, z), glm::cross(z, x), glm::cross(x, y)};
+  // The transposed inverse but for its length: where the transform mirrors, cofactors point to the other side.
+  const double side = transform.mirrors() ? -1.0 : 1.0;
+  const std::array<Vec3, 3> turned = {side * glm::cross(y, z), side * glm::cross(z, x),
+                                      side * glm::cross(x, y)};
   const TriangleMesh& mesh = object.mesh;
   for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
     const std::uint32_t source = mesh.source_triangles()[f];

@@ -119,6 +119,9 @@ void bench_occlusion_textures(Record& record, const SceneNames&);
 /// sun_bench.cpp: a year of hourly suns on 10,000 receivers of a city block, against 64 rays a receiver.
 void bench_sun(Record& record, const SceneNames&);
 
+/// terrain_bench.cpp: heightfields; instead of scenes the numbers of posts along a side.
+void bench_terrain(Record& record, const SceneNames& sides);
+
 /// price_bench.cpp: what exact classification costs, and what plain arithmetic gets wrong.
 void bench_price(Record& record, const SceneNames&);
 

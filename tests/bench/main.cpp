@@ -78,6 +78,7 @@ const std::vector<Part>& parts() {
       {"fields", bench_fields, {"bunny-small", "bunny-medium", "bunny-large", "bunny-sun"}},
       {"judge", bench_judge, {}},
       {"sun", bench_sun, {}},
+      {"terrain", bench_terrain, {"500", "1000", "2000", "4000"}},
       {"growth", bench_growth, {}},
       {"occlusion", bench_occlusion_textures, {}}};
   return all;

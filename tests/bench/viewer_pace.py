@@ -7,7 +7,6 @@ the time they had full size, and what a picture took of the processors: the view
 
 import argparse
 import collections
-import datetime
 import json
 import math
 import os
@@ -17,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from figures_file import spread, write
 
 SCENES = ["cube-medium", "bunny-medium", "armadillo-medium"]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -119,31 +120,6 @@ def measure(viewer, scene, size, seconds):
         server.wait()
 
 
-def spread(values):
-    """As tests/bench/record.cpp has it."""
-    values = sorted(values)
-    n = len(values)
-    low, median, high = (float(f"{v:.5g}") for v in (values[n // 4], values[n // 2], values[n - 1 - n // 4]))
-    return {"unit": "", "median": median, "low": low, "high": high, "runs": n}
-
-
-def write(file, commit, figures):
-    """Replaces this part of a file of figures, all else stays as it is written there: one figure a line."""
-    record = json.loads(file.read_text())
-    record["parts"]["viewer"] = {"commit": commit, "date": datetime.date.today().isoformat(), "figures": figures}
-    lines = []
-    for name, part in sorted(record["parts"].items()):
-        each = ",\n ".join(f"{json.dumps(key)}: {dense(value)}" for key, value in sorted(part["figures"].items()))
-        lines.append(f'{json.dumps(name)}: {{"commit": {json.dumps(part["commit"])}, "date": {json.dumps(part["date"])}, '
-                     f'"figures": {{\n {each}}}}}')
-    file.write_text(f'{{\n"machine": {dense(record["machine"])},\n"renderer": {json.dumps(record["renderer"])},\n'
-                    '"parts": {\n' + ",\n".join(lines) + "\n}\n}\n")
-
-
-def dense(value):
-    return json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("viewer")
@@ -162,7 +138,7 @@ def main():
             record[key] = spread(values) | {"unit": unit}
             print(f"  {key:56} {record[key]['median']:10.5g} {unit}", flush=True)
     if arguments.write:
-        write(arguments.write, arguments.commit, record)
+        write(arguments.write, arguments.commit, "viewer", record)
 
 
 if __name__ == "__main__":

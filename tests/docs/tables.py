@@ -202,6 +202,35 @@ def judged_solids(part):
                       percent(part.median(f"{scene}/penumbra/surplus"))] for scene in scenes_of(part, "/umbra/missed")])
 
 
+def sun_year(part):
+    def figure(name):
+        return part.median(f"city-block/{name}")
+
+    rows = [["exact areas", number(figure("areas") / 1000.0), number(figure("areas") / figure("suns")), "", ""],
+            ["64 rays a receiver", number(figure("rays64") / 1000.0), number(figure("rays64") / figure("suns")),
+             number(figure("rays64") / figure("areas")), error(figure("rays64-rmse"))]]
+    return markdown([f"{number(figure('receivers'))} receivers, {number(figure('suns'))} suns by day", "s", "ms a sun", "times as long",
+                     "RMSE where the sun is seen in part"], rows)
+
+
+def python_calls(part):
+    rows = [[scene, number(part.median(f"{scene}/points")), number(part.median(f"{scene}/wall clock/Python")),
+             number(part.median(f"{scene}/wall clock/C++")), number(part.median(f"{scene}/wall clock/Python : C++")),
+             number(part.median(f"{scene}/rays of equal RMSE")), number(part.median(f"{scene}/those rays : silhouette"))]
+            for scene in scenes_of(part, "/rays of equal RMSE")]
+    return markdown(["scene", "points", "Python, ms", "C++, ms", "ratio", "rays a point of equal RMSE", "they take, times"], rows)
+
+
+def terrain(part):
+    def cell(side, name):
+        return f"{number(part.median(f'{side}/{name}') / 1000.0)} ; {number(part.median(f'{side}/{name}-memory') / 1024.0)}"
+
+    names = {"tiles": "tiles", "rays, the first call": "rays-first", "the next": "rays-next", "silhouette, the first call": "silhouette-first",
+             "the next ": "silhouette-next"}
+    rows = [[f"{side}²"] + [cell(side, name) for name in names.values()] for side in part.names_before("/tiles")]
+    return markdown(["posts", *(name.strip() for name in names)], rows)
+
+
 # name, when, figure's name, lights, needs
 METHODS = [
     ("`silhouette`", "the default: exact areas, no noise", "silhouette", "disk, distant", "CPU"),
@@ -250,6 +279,9 @@ TABLES = {
     "umbra": lambda: each_machine("volumes", umbras),
     "solids": lambda: each_machine("solids", solids),
     "fields": lambda: each_machine("fields", fields),
+    "sun-year": lambda: each_machine("sun", sun_year),
+    "python-calls": lambda: each_machine("python", python_calls),
+    "terrain": lambda: each_machine("terrain", terrain),
     "solids-judge": lambda: first_machine("solids-judge", judged_solids),
 }
 

@@ -92,6 +92,7 @@ const std::vector<Rule>& rules() {
       {"Embree's part of the ray scene", "render/rays/", kAlone, "render/rays/ray_scene_impl\\.",
        {"render/silhouette/passes.cpp", "render/rays/ray_scene_impl.h"}},
       {"OpenVDB", "render/solids/vdb/", kAlone, "<openvdb/", {"render/solids/write_vdb.cpp", "openvdb/openvdb.h", false}},
+      {"GDAL", "render/scene/heightfield/gdal/", kAlone, "<(gdal|ogr_|cpl_)", {"render/scene/scene_json.cpp", "gdal.h", false}},
       {"tinygltf", "render/scene/gltf/", kAlone, "<tiny_gltf", {"render/scene/scene_load.cpp", "tiny_gltf.h", false}},
       {"OpenGL", "render/gl/", kAlone, "<(GL|EGL|KHR)/", {"render/d_buffer/d_buffer.cpp", "GL/glcorearb.h", false}},
       {"GLFW", "apps/viewer/", kAlone, "<GLFW/", {"render/gl/context_egl.cpp", "GLFW/glfw3.h", false}},

@@ -114,6 +114,9 @@ void bake_map(const Bake& bake) {
 void bake_object(const Bake& bake) {
   const BakeArguments& arguments = bake.arguments;
   const std::vector<std::size_t> objects = object_numbers(bake.scene, arguments.objects);
+  if (objects.size() > 1)
+    throw UsageError("--to takes one object, and \"" + arguments.objects[0] + "\" has " +
+                     std::to_string(objects.size()) + " tiles; give the number of one");
   const std::size_t object = objects.empty() ? 0 : objects[0];
   FaceMeansOptions options = arguments.faces;
   options.place = arguments.to == "vertices" ? BakePlace::kVertices : BakePlace::kFaces;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "apps/cli/made_by.h"
-#include "apps/cli/sun/receiver_set.h"
+#include "apps/cli/sun/surface.h"
 #include "apps/common/digest.h"
 #include "apps/common/stats.h"
 #include "penumbra/mesh/error.h"
@@ -43,8 +43,8 @@ Scene chosen_scene(const BakeArguments& arguments, Scene scene) {
 std::vector<std::size_t> object_numbers(const Scene& scene, const std::vector<std::string>& names) {
   std::vector<std::size_t> numbers;
   for (const std::string& name : names) {
-    const std::size_t number = object_index(scene, name);
-    if (std::ranges::find(numbers, number) == numbers.end()) numbers.push_back(number);
+    for (const std::size_t number : objects_named(scene, name))
+      if (std::ranges::find(numbers, number) == numbers.end()) numbers.push_back(number);
   }
   return numbers;
 }

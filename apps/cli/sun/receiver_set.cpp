@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <string_view>
 
+#include "apps/cli/sun/surface.h"
 #include "apps/common/outputs.h"
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"
@@ -89,7 +90,8 @@ ReceiverSet read_csv(const std::filesystem::path& path) {
 }
 
 ReceiverSet read_npy(const std::filesystem::path& path) {
-  const detail::NpyRows array = detail::read_npy_rows(path);
+  const detail::NpyRows array = detail::read_npy_rows(
+      path, "save it by numpy.save as an array of float32 or float64 of shape (n, 3) or (n, 6)");
   RowTaker taker(path.string());
   for (std::size_t i = 0; i < array.rows; ++i)
     taker.take(std::span(array.values).subspan(i * array.columns, array.columns), "row " + std::to_string(i));
@@ -109,52 +111,37 @@ ReceiverSet read_ply(const std::filesystem::path& path) {
   return std::move(taker).finish();
 }
 
-/// Of any length: twice the area.
-Vec3 cross_of(const TriangleMesh& mesh, const IndexedTriangle& t) {
-  const auto p = mesh.positions();
-  return glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]);
-}
-
-void add_faces(const TriangleMesh& mesh, std::int32_t object, ReceiverSet& out) {
-  const auto p = mesh.positions();
-  for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f) {
-    const IndexedTriangle& t = mesh.triangles()[f];
-    const Vec3 n = cross_of(mesh, t);
+void add_faces(const Surface& surface, ReceiverSet& out) {
+  const auto& p = surface.positions;
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+    const IndexedTriangle& t = surface.triangles[f];
+    const Vec3 n = surface.cross(f);
     if (!(glm::length(n) > 0.0)) continue;  // without area
     out.points.push_back((p[t[0]] + p[t[1]] + p[t[2]]) / 3.0);
     out.normals.push_back(glm::normalize(n));
-    out.objects.push_back(object);
-    out.faces.push_back(f);
+    out.objects.push_back(surface.objects[f]);
+    out.faces.push_back(surface.faces[f]);
   }
 }
 
-void add_vertices(const TriangleMesh& mesh, std::int32_t object, ReceiverSet& out) {
-  std::vector<Vec3> sums(mesh.positions().size(), Vec3(0.0));
-  std::vector<std::uint32_t> faces(mesh.positions().size(), 0);
-  for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f)
-    for (const std::uint32_t v : mesh.triangles()[f]) {
-      sums[v] += cross_of(mesh, mesh.triangles()[f]);
-      faces[v] = f;
+void add_vertices(const Surface& surface, ReceiverSet& out) {
+  std::vector<Vec3> sums(surface.positions.size(), Vec3(0.0));
+  std::vector<std::uint32_t> last(surface.positions.size(), 0);
+  for (std::uint32_t f = 0; f < surface.triangles.size(); ++f)
+    for (const std::uint32_t v : surface.triangles[f]) {
+      sums[v] += surface.cross(f);
+      last[v] = f;
     }
   for (std::size_t v = 0; v < sums.size(); ++v) {
     if (!(glm::length(sums[v]) > 0.0)) continue;
-    out.points.push_back(mesh.positions()[v]);
+    out.points.push_back(surface.positions[v]);
     out.normals.push_back(glm::normalize(sums[v]));
-    out.objects.push_back(object);
-    out.faces.push_back(faces[v]);
+    out.objects.push_back(surface.objects[last[v]]);
+    out.faces.push_back(surface.faces[last[v]]);
   }
 }
 
 }  // namespace
-
-std::size_t object_index(const Scene& scene, const std::string& object) {
-  std::string known;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (scene.objects[i].name == object || std::to_string(i) == object) return i;
-    known += (i > 0 ? ", " : "") + std::to_string(i) + " " + scene.objects[i].name;
-  }
-  throw UsageError("there is no object \"" + object + "\"; the scene has " + known);
-}
 
 ReceiverSet read_receivers(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
@@ -165,10 +152,8 @@ ReceiverSet read_receivers(const std::filesystem::path& path) {
 }
 
 ReceiverSet receivers_on(const Scene& scene, const std::string& object, ReceiverPlace place) {
-  const std::size_t i = object_index(scene, object);
   ReceiverSet out;
-  (place == ReceiverPlace::kFaces ? add_faces : add_vertices)(scene.objects[i].mesh,
-                                                              static_cast<std::int32_t>(i), out);
+  (place == ReceiverPlace::kFaces ? add_faces : add_vertices)(surface_of(scene, object), out);
   return out;
 }
 

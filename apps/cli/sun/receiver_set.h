@@ -26,12 +26,9 @@ struct ReceiverSet {
 /// .ply (vertices, with nx, ny, nz or without). Normals of any length but 0. Throws MeshError with the line or row.
 ReceiverSet read_receivers(const std::filesystem::path& path);
 
-/// The number of an object of that name (its mesh's, in the scene file) or number. Throws UsageError that lists the objects.
-std::size_t object_index(const Scene& scene, const std::string& object);
-
 enum class ReceiverPlace { kVertices, kFaces };
 /// The centers of an object's faces with the faces' normals; or its vertices with the mean of the faces' normals, weighted by area. A vertex
-/// whose faces cancel each other is left out. `object`: as for object_index.
+/// whose faces cancel each other is left out. `object`: as for surface_of.
 ReceiverSet receivers_on(const Scene& scene, const std::string& object, ReceiverPlace place);
 
 }  // namespace penumbra::apps

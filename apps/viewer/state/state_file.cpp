@@ -106,10 +106,12 @@ nlohmann::json scene_document(const std::filesystem::path& path, const State& st
   if (!document.contains("objects"))
     throw UsageError(
         "a scene of a glTF file cannot be saved as a scene file; save the picture, or change the glTF file");
-  const bool bare = state.model->objects.size() != document["objects"].size();
+  const bool bare = document.contains("x-made-for");
   const std::filesystem::path folder = bare ? std::filesystem::path() : state.path.parent_path();
   for (nlohmann::json& object : document["objects"])
-    object["mesh"] = moved_path(object["mesh"].get<std::string>(), folder, path.parent_path());
+    for (const char* key : {"mesh", "heightfield"})
+      if (object.contains(key))
+        object[key] = moved_path(object[key].get<std::string>(), folder, path.parent_path());
   if (bare) {
     document["objects"].insert(document["objects"].begin(), floor_entry(path, state.model->objects.front()));
     document.erase("x-made-for");

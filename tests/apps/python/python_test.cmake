@@ -22,6 +22,9 @@ elseif(TARGET penumbra_python)
     add_test(NAME python.${name} COMMAND ${PENUMBRA_PYTHON} -B -m pytest -q -rs -p no:cacheprovider ${file})
     set_tests_properties(python.${name} PROPERTIES TIMEOUT 300 ENVIRONMENT "PYTHONPATH=${PROJECT_BINARY_DIR}/python")
   endforeach()
+  # As pip installs it into an environment of its own, without a network.
+  add_test(NAME python.pip COMMAND ${PENUMBRA_PYTHON} -B ${CMAKE_CURRENT_LIST_DIR}/pip_install.py ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR})
+  set_tests_properties(python.pip PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600 RUN_SERIAL ON)
   # Serial: Ctrl-C is timed.
   set_tests_properties(python.long_calls PROPERTIES RUN_SERIAL ON)
   find_package(TBB REQUIRED)

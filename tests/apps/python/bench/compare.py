@@ -1,6 +1,6 @@
 """A million points by Python's call and by the C++ call, and by as many rays a point as have the same RMSE, in one run.
 
-usage: compare.py PROGRAM SCENE [--points N] [--rounds N] [--judged N] [--rays N]
+usage: compare.py PROGRAM SCENE [--points N] [--rounds N] [--judged N] [--rays N] [--write FILE --commit C]
 
 PROGRAM is penumbra_points_bench. The points form a square grid on the plane of the scene's lowest point, where most shadows are.
 Python and C++ take turns; the ratio is that of the medians. Values must be equal bit by bit. Both RMSEs are of the same points in penumbra, by
@@ -10,6 +10,7 @@ that is equal is read off a straight line through their logarithms.
 import argparse
 import math
 import os
+import pathlib
 import statistics
 import subprocess
 import sys
@@ -18,6 +19,9 @@ import time
 
 import numpy as np
 import penumbra
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "bench"))
+from figures_file import spread, write  # noqa: E402
 
 TRIED = (64, 256, 1024)
 
@@ -72,7 +76,7 @@ class Bench:
         return np.fromfile(out, np.float32)
 
 
-def compare(bench, points, rounds):
+def compare(bench, points, rounds, record):
     mine, theirs = [], []
     for _ in range(rounds):
         times, values = bench.python(points, 2)
@@ -82,9 +86,12 @@ def compare(bench, points, rounds):
         if not np.array_equal(values, expected):
             sys.exit("Python's values are not those of C++")
     median = {}
+    record["points"] = ("", [len(points)])
     for k, what in enumerate(("wall clock", "CPU")):
         python, cpp = (statistics.median(t[k] for t in times) for times in (mine, theirs))
         median[what] = python
+        record[f"{what}/Python"], record[f"{what}/C++"] = ("ms", [t[k] for t in mine]), ("ms", [t[k] for t in theirs])
+        record[f"{what}/Python : C++"] = ("", [python / cpp])
         print(f"{len(points):,} points, {what}: Python {python:.1f} ms, C++ {cpp:.1f} ms, ratio {python / cpp:.3f}")
     return values, median
 
@@ -93,7 +100,7 @@ def rmse(values, truth):
     return float(np.sqrt(np.mean((values.astype(float) - truth) ** 2)))
 
 
-def equal_rays(bench, points, values, arguments, median):
+def equal_rays(bench, points, values, arguments, median, record):
     partly = np.flatnonzero((values > 0) & (values < 1))
     print(f"{len(partly):,} points in penumbra")
     chosen = np.random.default_rng(1).choice(partly, min(arguments.judged, len(partly)), replace=False)
@@ -110,9 +117,11 @@ def equal_rays(bench, points, values, arguments, median):
     print(f"of equal RMSE: {equal:.0f} rays a point")
     some = points[:: max(1, len(points) // 20_000)].copy()
     times, _ = bench.python(some, 1, method="reference", samples=TRIED[-1])
+    record["rays of equal RMSE"], record["RMSE"] = ("rays", [equal]), ("visibility", [mine])
     whole = times[0][1] * len(points) / len(some) * equal / TRIED[-1]
     print(f"they would take {whole / 1e3:.0f} s of CPU for all points (measured: {TRIED[-1]} rays at each of {len(some):,}), "
           f"{whole / median['CPU']:.0f} times as long as silhouette")
+    record["those rays : silhouette"] = ("", [whole / median["CPU"]])
 
 
 def main():
@@ -123,12 +132,19 @@ def main():
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--judged", type=int, default=1_000)
     parser.add_argument("--rays", type=int, default=16_384)
+    parser.add_argument("--write", type=pathlib.Path)
+    parser.add_argument("--commit", default="unknown")
     arguments = parser.parse_args()
+    record = {}
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(arguments.program, arguments.scene, folder)
         points = grid(bench.scene, arguments.points)
-        values, median = compare(bench, points, arguments.rounds)
-        equal_rays(bench, points, values, arguments, median)
+        values, median = compare(bench, points, arguments.rounds, record)
+        equal_rays(bench, points, values, arguments, median, record)
+    if arguments.write:
+        scene = pathlib.Path(arguments.scene).stem
+        write(arguments.write, arguments.commit, "python",
+              {f"{scene}/{name}": spread(values) | {"unit": unit} for name, (unit, values) in record.items()})
 
 
 main()
