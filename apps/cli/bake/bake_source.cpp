@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "apps/cli/digest.h"
 #include "apps/cli/made_by.h"
 #include "apps/cli/sun/surface.h"
-#include "apps/common/digest.h"
 #include "apps/common/stats.h"
 #include "penumbra/mesh/error.h"
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/cli/digest.h"
 #include "apps/cli/made_by.h"
-#include "apps/common/digest.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/shapes.h"
 
