@@ -115,7 +115,8 @@ void Pairing::pair_by_angle(const std::vector<std::uint32_t>& faces) {
     depth += spokes[i].ends_solid ? -1 : 1;
     if (depth < least) least = depth, start = i + 1;
   }
-  std::rotate(spokes.begin(), spokes.begin() + static_cast<std::ptrdiff_t>(start % spokes.size()), spokes.end());
+  std::rotate(spokes.begin(), spokes.begin() + static_cast<std::ptrdiff_t>(start % spokes.size()),
+              spokes.end());
   std::vector<std::uint32_t> begun;
   for (const Spoke& spoke : spokes) {
     if (!spoke.ends_solid) {

@@ -223,9 +223,10 @@ def python_calls(part):
 
 def terrain(part):
     def cell(side, name):
-        return f"{number(part.median(f'{side}/{name}') / 1000.0)} ; {number(part.median(f'{side}/{name}-memory') / 1024.0)}"
+        time, memory = (part.median(f"{side}/{name}{what}") for what in ("", "-memory"))
+        return "" if time is None else f"{number(time / 1000.0)} ; {number(memory / 1024.0)}"
 
-    names = {"tiles": "tiles", "rays, the first call": "rays-first", "the next": "rays-next", "silhouette, the first call": "silhouette-first",
+    names = {"tiles": "tiles", "`reference`, the first call": "reference-first", "the next": "reference-next", "`silhouette`, the first call": "silhouette-first",
              "the next ": "silhouette-next"}
     rows = [[f"{side}²"] + [cell(side, name) for name in names.values()] for side in part.names_before("/tiles")]
     return markdown(["posts", *(name.strip() for name in names)], rows)

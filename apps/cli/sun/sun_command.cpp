@@ -207,7 +207,8 @@ void add_sun_command(CLI::App& app) {
       .add_option("--points", arguments->points, "Receivers: x, y, z and perhaps a normal, CSV, NPY or PLY")
       ->type_name("FILE");
   command
-      .add_option("--object", arguments->object, "Receivers on one of the scene's objects or heightfields, by name or number")
+      .add_option("--object", arguments->object,
+                  "Receivers on one of the scene's objects or heightfields, by name or number")
       ->type_name("NAME|N");
   command.add_option("--at", arguments->at, "Its faces or its vertices")
       ->check(CLI::IsMember({"faces", "vertices"}))
