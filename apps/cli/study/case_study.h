@@ -8,12 +8,12 @@
 #include <span>
 
 #include "apps/cli/study/case_judge.h"
+#include "apps/cli/study/measure/too_long.h"
 #include "apps/cli/study/peers/peer.h"
 #include "apps/cli/study/pictures/study_pictures.h"
 #include "apps/cli/study/settings.h"
 #include "apps/cli/study/study.h"
 #include "apps/cli/study/study_unit.h"
-#include "apps/cli/study/measure/too_long.h"
 
 namespace penumbra::apps {
 

@@ -57,7 +57,7 @@ float draw_legend(ImDrawList& list, const std::vector<LegendEntry>& legend, floa
   if (legend.empty()) return 0.0f;
   const float font = ImGui::GetFontSize(), pitch = 1.35f * font, pad = 0.5f * font;
   float width = 0.0f;
-  for (const LegendEntry& each : legend) width = std::max(width, ImGui::CalcTextSize(each.text.c_str()).x);
+  for (const LegendEntry& each : legend) width = std::max(width, ImGui::CalcTextSize(each.text).x);
   const float height = static_cast<float>(legend.size()) * pitch + 2.0f * pad;
   const float top = bottom - height;
   list.AddRectFilled({left, top}, {left + width + 1.6f * font + 2.0f * pad, bottom},
@@ -68,7 +68,7 @@ float draw_legend(ImDrawList& list, const std::vector<LegendEntry>& legend, floa
       list.AddLine({x, middle}, {x + font, middle}, legend[i].color, 3.0f);
     else
       list.AddRectFilled({x, y + 1.0f}, {x + font, y + font}, legend[i].color, 2.0f);
-    list.AddText({x + 1.6f * font, y}, IM_COL32(240, 240, 240, 255), legend[i].text.c_str());
+    list.AddText({x + 1.6f * font, y}, IM_COL32(240, 240, 240, 255), legend[i].text);
   }
   return height;
 }

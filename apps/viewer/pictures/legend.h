@@ -1,7 +1,6 @@
 // What the colors of overlays mean, at the lower left of the picture.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "apps/viewer/state/state.h"
@@ -11,8 +10,8 @@ struct ImDrawList;
 namespace penumbra::viewer {
 
 struct LegendEntry {
-  unsigned color;  ///< ImGui's; 0: a heading
-  std::string text;
+  unsigned color;     ///< ImGui's; 0: a heading
+  const char* text;   ///< a literal
   bool line = false;  ///< drawn as a line, else as a square
 };
 /// Of all that is shown, from the top. Empty where nothing needs one.
