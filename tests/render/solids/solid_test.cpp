@@ -9,7 +9,7 @@ namespace {
 
 struct SolidScene {
   explicit SolidScene(const std::string& name)
-      : scene(load_scene(std::string(PENUMBRA_DATA) + "/scenes/" + name + ".json").scene),
+      : scene(load_scene(std::filesystem::path(PENUMBRA_DATA) / "scenes" / (name + ".json")).scene),
         light(scene.lights.front().shape),
         bound(scene.bounds()) {
     for (const SceneObject& object : scene.objects)
