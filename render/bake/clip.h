@@ -1,6 +1,7 @@
 // Bake: convex polygons of the texture, cut by lines.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -63,6 +64,17 @@ class ConvexPolygon {
 
   std::array<glm::dvec2, 12> corners_{};
   std::size_t count_ = 0;
+};
+
+/// The box of a face in the texture.
+struct UvBox {
+  explicit UvBox(const FaceUv& t) {
+    for (int k = 0; k < 2; ++k) {
+      low[k] = std::min({t[0][k], t[1][k], t[2][k]});
+      high[k] = std::max({t[0][k], t[1][k], t[2][k]});
+    }
+  }
+  glm::dvec2 low, high;
 };
 
 }  // namespace penumbra::detail

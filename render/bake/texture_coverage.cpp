@@ -27,16 +27,6 @@ ConvexPolygon between(const ConvexPolygon& polygon, int axis, double low, double
   });
 }
 
-struct Box {
-  explicit Box(const FaceUv& t) {
-    for (int k = 0; k < 2; ++k) {
-      low[k] = std::min({t[0][k], t[1][k], t[2][k]});
-      high[k] = std::max({t[0][k], t[1][k], t[2][k]});
-    }
-  }
-  glm::dvec2 low, high;
-};
-
 }  // namespace
 
 TextureCoverage::TextureCoverage(const TextureAtlas& atlas, int tile)
@@ -47,7 +37,7 @@ TextureCoverage::TextureCoverage(const TextureAtlas& atlas, int tile)
     for (std::uint32_t face = 0; face < atlas.uv[object].size(); ++face) {
       const FaceUv& uv = atlas.uv[object][face];
       if (doubled_area(uv) == 0.0) continue;
-      const Box box(uv);
+      const UvBox box(uv);
       const auto number = [&](double x, int most) {
         return std::clamp(static_cast<int>(std::floor(x / tile)), 0, most - 1);
       };
@@ -100,7 +90,7 @@ void TextureCoverage::for_each_piece(std::size_t tile, int side,
   const double step = 1.0 / side;
   for (const FaceNumber& number : faces_[tile]) {
     const FaceUv& uv = atlas_.uv[number.object][number.face];
-    const Box box(uv);
+    const UvBox box(uv);
     const Span rows = cells_between(box.low.y, box.high.y, range.top, side, range.height * side);
     const Span columns = cells_between(box.low.x, box.high.x, range.left, side, range.width * side);
     for (int j = rows.first; j < rows.last; ++j) {

@@ -6,20 +6,6 @@
 #include "render/bake/clip.h"
 
 namespace penumbra::detail {
-namespace {
-
-struct Box {
-  explicit Box(const FaceUv& t) {
-    for (int k = 0; k < 2; ++k) {
-      low[k] = std::min({t[0][k], t[1][k], t[2][k]});
-      high[k] = std::max({t[0][k], t[1][k], t[2][k]});
-    }
-  }
-  glm::dvec2 low, high;
-};
-
-}  // namespace
-
 double common_area(const FaceUv& a, const FaceUv& b) {
   const double turn = doubled_area(b);
   ConvexPolygon common(a);
@@ -35,7 +21,7 @@ double common_area(const FaceUv& a, const FaceUv& b) {
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> find_overlaps(std::span<const FaceUv> triangles,
                                                                    double least, std::size_t most) {
-  std::vector<Box> boxes(triangles.begin(), triangles.end());
+  std::vector<UvBox> boxes(triangles.begin(), triangles.end());
   std::vector<std::uint32_t> order(triangles.size());
   std::iota(order.begin(), order.end(), 0u);
   std::ranges::sort(order, [&](std::uint32_t i, std::uint32_t j) {

@@ -29,6 +29,21 @@ struct RowOfReceivers {
   std::vector<Vec3> points, normals;
 };
 
+/// Triangles that are open, cross each other, are wound at random, and have edges of three faces.
+inline TriangleMesh triangles_that_are_no_surface(Random& random) {
+  std::vector<Vec3> points;
+  std::vector<IndexedTriangle> triangles;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    const Vec3 at = random.point(0.8);
+    for (int k = 0; k < 5; ++k) points.push_back(at + random.point(0.4));
+    const std::uint32_t v = 5 * i;
+    triangles.push_back({v, v + 1, v + 2});
+    triangles.push_back(i % 2 == 0 ? IndexedTriangle{v, v + 1, v + 3} : IndexedTriangle{v + 1, v, v + 3});
+    if (i % 3 == 0) triangles.push_back({v + 1, v, v + 4});
+  }
+  return TriangleMesh::build(points, triangles);
+}
+
 class MethodUnderTest {
  public:
   explicit MethodUnderTest(std::string name) : name_(std::move(name)) {}

@@ -65,21 +65,6 @@ inline RectangleLight rectangle_for(const DiskLight& disk) {
           .half_extents = {0.5 * disk.radius, 1.5 * disk.radius}};
 }
 
-/// Triangles that are open, cross each other, are wound at random, and have edges of three faces.
-inline TriangleMesh triangles_that_are_no_surface(Random& random) {
-  std::vector<Vec3> points;
-  std::vector<IndexedTriangle> triangles;
-  for (std::uint32_t i = 0; i < 60; ++i) {
-    const Vec3 at = random.point(0.8);
-    for (int k = 0; k < 5; ++k) points.push_back(at + random.point(0.4));
-    const std::uint32_t v = 5 * i;
-    triangles.push_back({v, v + 1, v + 2});
-    triangles.push_back(i % 2 == 0 ? IndexedTriangle{v, v + 1, v + 3} : IndexedTriangle{v + 1, v, v + 3});
-    if (i % 3 == 0) triangles.push_back({v + 1, v, v + 4});
-  }
-  return TriangleMesh::build(points, triangles);
-}
-
 /// The samples of a receiver, in the world; of a distant light directions.
 inline std::vector<Vec3> samples_of(const LightShape& shape, std::uint32_t key, int count) {
   const AreaLight light = area_light(shape);

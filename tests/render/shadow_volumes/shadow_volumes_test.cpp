@@ -59,20 +59,10 @@ TEST(ShadowVolumes, AreTheHardShadow) {
   }
 }
 
-// Each on its own way to be wrong: open, crossing each other, wound at random, with edges of three faces.
 TEST(ShadowVolumes, AreTheHardShadowOfTrianglesThatAreNoSurface) {
   Random random(7);
-  std::vector<Vec3> points, receivers;
-  std::vector<IndexedTriangle> triangles;
-  for (std::uint32_t i = 0; i < 60; ++i) {
-    const Vec3 at = random.point(0.8);
-    for (int k = 0; k < 5; ++k) points.push_back(at + random.point(0.4));
-    const std::uint32_t v = 5 * i;
-    triangles.push_back({v, v + 1, v + 2});
-    triangles.push_back(i % 2 == 0 ? IndexedTriangle{v, v + 1, v + 3} : IndexedTriangle{v + 1, v, v + 3});
-    if (i % 3 == 0) triangles.push_back({v + 1, v, v + 4});
-  }
-  const Casters casters(std::vector<TriangleMesh>{TriangleMesh::build(points, triangles)});
+  const Casters casters(std::vector<TriangleMesh>{testing::triangles_that_are_no_surface(random)});
+  std::vector<Vec3> receivers;
   for (int i = 0; i < 20'000; ++i) receivers.push_back(random.point(2.5));
   const Difference off =
       from_hard(casters, DiskLight{{0.2, 3, -0.1}, {0.1, -1, 0}, 0.8}, {.points = receivers});
