@@ -13,6 +13,9 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from mpi_ranks import process_of_rank
+
 ROOM = pathlib.Path(__file__).resolve().parents[3] / "data/bake/room.json"
 PARTS_BEFORE = 5
 TIMEOUT = 240
@@ -23,14 +26,6 @@ os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1"
 
 def parts_in(folder):
     return len(list(folder.glob("*.f32"))) if folder.exists() else 0
-
-
-def process_of_rank(mpirun, rank):
-    for children in pathlib.Path(f"/proc/{mpirun}/task").glob("*/children"):
-        for child in children.read_text().split():
-            if f"OMPI_COMM_WORLD_RANK={rank}".encode() in pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0"):
-                return int(child)
-    sys.exit(f"no process has rank {rank}")
 
 
 def kill_midway(command, parts, rank=None):

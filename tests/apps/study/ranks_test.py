@@ -13,6 +13,9 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
+from mpi_ranks import process_of_rank
+
 DATA = pathlib.Path(__file__).resolve().parents[3] / "data/scenes"
 STUDY = ["study", *(str(DATA / f"{name}.json") for name in ("cube-small", "torus-small")), "--size", "64x48", "--samples", "64",
          "--frames", "1", "--no-memory", "--methods", "silhouette,reference,rays"]
@@ -34,14 +37,6 @@ def errors_of(folder):
 def written(folder):
     path = folder / "rows.jsonl"
     return path.read_text().count('{"row":') if path.exists() else 0
-
-
-def process_of_rank(mpirun, rank):
-    for children in pathlib.Path(f"/proc/{mpirun}/task").glob("*/children"):
-        for child in children.read_text().split():
-            if f"OMPI_COMM_WORLD_RANK={rank}".encode() in pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0"):
-                return int(child)
-    sys.exit(f"no process has rank {rank}")
 
 
 def kill_one(command, folder):
