@@ -107,8 +107,10 @@ bool is_large(const std::filesystem::path& path) {
 
 Scene load(const SceneInput& input) {
   const LoadedScene loaded = [&] {
-    const SceneOptions options = {
-        .strict = input.strict, .light_radius = input.light_radius, .sun_angle = input.sun_angle};
+    const SceneOptions options = {.strict = input.strict,
+                                  .light_radius = input.light_radius,
+                                  .sun_angle = input.sun_angle,
+                                  .uv_set = input.uv_set};
     if (is_standard(input.path))
       return parse_scene_or_mesh(read_standard_input(), "", kStandardInput, options);
     ProgressLine reading("reading " + input.path.string());

@@ -40,6 +40,8 @@ struct SceneInput {
   bool strict = false;  ///< unknown keys are errors
   /// Of lights in glTF files.
   std::optional<double> light_radius{}, sun_angle{};
+  /// Of glTF files; commands that use texture coordinates have an option for it.
+  std::optional<int> uv_set{};
 };
 void add_strict_option(CLI::App& command, SceneInput& input);
 /// SCENE as a positional argument, --strict, --light-radius and --sun-angle.

@@ -48,4 +48,9 @@ struct AtlasOptions {
 /// fit: each takes one texel and its padding at least. Cost O(faces · log faces).
 TextureAtlas make_atlas(const std::vector<SceneObject>& objects, const AtlasOptions& options);
 
+/// The objects' own texture coordinates (SceneObject::corner_uv) in a texture of options.size² texels; of the options `objects` counts besides. Throws
+/// UsageError that names the object and the face where a corner has no coordinates or lies outside of 0 to 1, and where two faces have more than 1/64 of a
+/// texel in common: it would get two values. Expected cost O(faces · log faces).
+TextureAtlas given_atlas(const std::vector<SceneObject>& objects, const AtlasOptions& options);
+
 }  // namespace penumbra

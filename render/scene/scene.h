@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
@@ -36,6 +37,9 @@ struct SceneObject {
   bool casts = true;
   /// Unit normals at the corners of each face, for smooth shading: only RGB depends on them. Empty: faces are flat.
   std::vector<std::array<glm::vec3, 3>> corner_normals{};
+  /// Texture coordinates at the corners of each face, (0, 0) at the texture's upper left corner: the set that SceneOptions::uv_set asks for. NaN
+  /// where the file gives a corner none. Empty: none were read.
+  std::vector<std::array<glm::dvec2, 3>> corner_uv{};
   /// Albedos where its faces have several: empty, or one for each face, which then counts instead.
   FaceColors face_albedo{};
   /// Only the shadow on it is shown: black, as opaque as the shadow is dark.
@@ -87,6 +91,8 @@ struct SceneOptions {
   /// Of lights in glTF files, which have no size: the radius of points and spots, scene units, and the angle of directional ones, degrees. Without, `extras` of
   /// the file say it.
   std::optional<double> light_radius{}, sun_angle{};
+  /// The set of texture coordinates of glTF files that is read: TEXCOORD_0 or a further one. Without, none is.
+  std::optional<int> uv_set{};
 };
 
 struct LoadedScene {

@@ -16,6 +16,13 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
+/// Whether a face of the mesh, which is the entry's under this transform, was turned round: its corners 1 and 2 have then changed places.
+bool is_turned(const MeshCache::Entry& entry, const Transform& transform, const TriangleMesh& mesh,
+               std::uint32_t face) {
+  const IndexedTriangle& read = entry.triangulation.triangles[mesh.source_triangles()[face]];
+  return mesh.positions()[mesh.triangles()[face][1]] != transform.apply(entry.positions[read[1]]);
+}
+
 }  // namespace
 
 const MeshCache::Entry& MeshCache::get(const std::filesystem::path& path) {
@@ -91,13 +98,10 @@ void take_normals(const MeshCache::Entry& entry, const Transform& transform, Sce
   const std::array<Vec3, 3> turned = {side * glm::cross(y, z), side * glm::cross(z, x),
                                       side * glm::cross(x, y)};
   const TriangleMesh& mesh = object.mesh;
-  for (std::size_t f = 0; f < mesh.triangles().size(); ++f) {
-    const std::uint32_t source = mesh.source_triangles()[f];
-    IndexedTriangle corners = entry.triangulation.corners[source];
+  for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f) {
+    IndexedTriangle corners = entry.triangulation.corners[mesh.source_triangles()[f]];
     const auto position = [&](std::size_t k) { return mesh.positions()[mesh.triangles()[f][k]]; };
-    // Where the face was turned round its corners 1 and 2 changed places.
-    if (position(1) != transform.apply(entry.positions[entry.triangulation.triangles[source][1]]))
-      std::swap(corners[1], corners[2]);
+    if (is_turned(entry, transform, mesh, f)) std::swap(corners[1], corners[2]);
     const Vec3 flat = unit(glm::cross(position(1) - position(0), position(2) - position(0)));
     std::array<glm::vec3, 3>& normals = object.corner_normals.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -106,6 +110,17 @@ void take_normals(const MeshCache::Entry& entry, const Transform& transform, Sce
       const Vec3 world = unit(turned[0] * n.x + turned[1] * n.y + turned[2] * n.z);
       normals[k] = glm::vec3(i == PolygonSoup::kNoNormal ? flat : world);
     }
+  }
+}
+
+void take_uv(const MeshCache::Entry& entry, const Transform& transform, SceneObject& object) {
+  if (entry.corner_uv.empty()) return;
+  const TriangleMesh& mesh = object.mesh;
+  for (std::uint32_t f = 0; f < mesh.triangles().size(); ++f) {
+    const std::size_t first = 3 * std::size_t{entry.triangulation.source_polygon[mesh.source_triangles()[f]]};
+    auto& uv = object.corner_uv.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) uv[k] = entry.corner_uv[first + k];
+    if (is_turned(entry, transform, mesh, f)) std::swap(uv[1], uv[2]);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <map>
 #include <string>
 
@@ -22,6 +23,8 @@ class MeshCache {
     std::vector<std::uint32_t> polygon_material;
     std::vector<Vec3> normals;
     std::vector<std::uint32_t> corner_normals;
+    /// Texture coordinates of the corners of triangles that were read, three a triangle, NaN where one has none. Only glTF files have them.
+    std::vector<glm::dvec2> corner_uv{};
     std::vector<std::string> ignored;
     /// What was read: the mesh, unless it came from memory, and its files of materials.
     std::vector<std::filesystem::path> files;
@@ -48,6 +51,9 @@ void take_material_colors(const MeshCache::Entry& entry, SceneObject& object);
 /// Gives the object the normals of its file's corners, in the world. Corners that have none get that of the face. The
 /// object's mesh is the entry's under this transform.
 void take_normals(const MeshCache::Entry& entry, const Transform& transform, SceneObject& object);
+
+/// Gives the object the texture coordinates of its file's corners. The object's mesh is the entry's under this transform.
+void take_uv(const MeshCache::Entry& entry, const Transform& transform, SceneObject& object);
 
 /// What reading and building did to a mesh, and what of its file is not used, in one line; empty where it was taken
 /// as it is.

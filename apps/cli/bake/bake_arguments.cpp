@@ -50,6 +50,13 @@ void add_lightmap_options(CLI::App& command, BakeArguments& arguments) {
       ->capture_default_str()
       ->type_name("A")
       ->group(group);
+  command
+      .add_option("--uv-set", arguments.scene.uv_set,
+                  "Instead of charts: the texture coordinates that the glTF file has as TEXCOORD_N")
+      ->check(CLI::Range(0, 15))
+      ->type_name("N")
+      ->excludes("--texel", "--padding", "--chart-angle")
+      ->group(group);
   command.add_option("--texel-samples", arguments.map.samples, "A texel is the mean over N² squares")
       ->check(CLI::Range(1, 64))
       ->capture_default_str()
@@ -128,8 +135,8 @@ void require_usable(const BakeArguments& arguments) {
     parse_size(arguments.picture_size);
   } else {
     if (arguments.output.empty()) throw UsageError("--to " + arguments.to + " needs --output FILE");
-    if (!arguments.mesh.empty() || !arguments.picture.empty())
-      throw UsageError("--mesh and --picture belong to --lightmap");
+    if (!arguments.mesh.empty() || !arguments.picture.empty() || arguments.scene.uv_set)
+      throw UsageError("--mesh, --picture and --uv-set belong to --lightmap");
     if (arguments.objects.size() > 1) throw UsageError("--to takes one --object");
     require_extension("--output", arguments.output, {".ply", ".npy"}, false);
   }

@@ -21,6 +21,7 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   penumbra bake room.json --lightmap room.exr --mesh room.glb --picture lit.png
   penumbra bake room.json --lightmap room.exr --quantity irradiance --texel 0.05
+  penumbra bake level.glb --uv-set 1 --lightmap level.exr --texels 2048
   penumbra bake scene.json --object 1 --to vertices --output lit.ply
   mpirun -n 4 penumbra bake room.json --lightmap room.exr --texels 4096
 A visibility is the fraction of a light's area that is seen, 0 to 1. Lightmaps have the channels visibility.NAME of each light, or R G B of irradiance, and
@@ -82,11 +83,16 @@ void write_picture(const Bake& bake, const Lightmap& map, const TextureAtlas& at
 
 std::string text_of(const TextureAtlas& atlas, const Lightmap& map) {
   const auto touched = std::ranges::count_if(map.coverage, [](float c) { return c > 0.0f; });
+  const double covered = 100.0 * static_cast<double>(touched) / static_cast<double>(map.coverage.size());
   char text[200];
-  std::snprintf(text, sizeof text,
-                "%zu charts in %dx%d texels of %.4g scene units; %.0f%% of them are covered\n", atlas.charts,
-                atlas.width, atlas.height, atlas.texel,
-                100.0 * static_cast<double>(touched) / static_cast<double>(map.coverage.size()));
+  if (atlas.texel > 0.0)
+    std::snprintf(text, sizeof text,
+                  "%zu charts in %dx%d texels of %.4g scene units; %.0f%% of them are covered\n",
+                  atlas.charts, atlas.width, atlas.height, atlas.texel, covered);
+  else
+    std::snprintf(text, sizeof text,
+                  "The file's texture coordinates in %dx%d texels; %.0f%% of them are covered\n", atlas.width,
+                  atlas.height, covered);
   return text;
 }
 
@@ -94,7 +100,8 @@ void bake_map(const Bake& bake) {
   const BakeArguments& arguments = bake.arguments;
   AtlasOptions options = arguments.atlas;
   options.objects = object_numbers(bake.scene, arguments.objects);
-  const TextureAtlas atlas = make_atlas(bake.scene.objects, options);
+  const TextureAtlas atlas = arguments.scene.uv_set ? given_atlas(bake.scene.objects, options)
+                                                    : make_atlas(bake.scene.objects, options);
   const LightmapBaker baker(bake.source, atlas, arguments.map);
   const BakeParts parts{
       .count = baker.tiles(),

@@ -18,9 +18,9 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;
 constexpr const char* kExport = "export it again as glTF 2.0";
 
 /// What may be required and changes no position: textures and looks are not used.
-constexpr std::array<std::string_view, 6> kHarmless = {"KHR_lights_punctual",     "KHR_mesh_quantization",
-                                                       "EXT_mesh_gpu_instancing", "KHR_texture_transform",
-                                                       "KHR_texture_basisu",      "EXT_texture_webp"};
+constexpr std::array<std::string_view, 7> kHarmless = {
+    "KHR_lights_punctual",   "EXT_lights_area",    "KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
+    "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp"};
 
 std::uint32_t word(std::span<const std::byte> bytes, std::size_t at) {
   std::uint32_t value = 0;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesh/vectors.h"
+#include "render/scene/gltf/gltf_area_lights.h"
 #include "render/scene/scene_node.h"
 
 namespace penumbra::detail {
@@ -37,19 +38,29 @@ std::string fit_name(const std::string& name, const std::vector<Light>& others) 
   return fit;
 }
 
-/// Where a node's -z points to.
-Vec3 forward(const Transform& world) {
-  const Vec3 z = scaled_to_one(world.columns[2]);
-  return glm::length(z) > 0.0 ? -unit(z) : Vec3(0, 0, -1);
+/// nullptr where the node has none.
+const tinygltf::Light* punctual_light_of(const GltfFile& file, const tinygltf::Node& node,
+                                         const std::string& where) {
+  const auto extension = node.extensions.find(kExtension);
+  if (extension == node.extensions.end() || !extension->second.Has("light")) return nullptr;
+  const tinygltf::Value& light = extension->second.Get("light");
+  const int i = light.IsNumber() ? light.GetNumberAsInt() : -1;
+  if (i < 0 || static_cast<std::size_t>(i) >= file.model.lights.size())
+    file.fail(where, "has a light that does not exist", "export it again");
+  return &file.model.lights[static_cast<std::size_t>(i)];
 }
 
-/// One node's light, made for a scene.
+/// Lights of nodes, made for a scene.
 class LightMaker {
  public:
   LightMaker(const GltfFile& file, const Bounds& casters, const SceneOptions& options, GltfNotes& notes,
              std::vector<std::string>& warnings)
       : file_(file), casters_(casters), options_(options), notes_(notes), warnings_(warnings) {}
 
+  void add(Light light, const tinygltf::Node& node) {
+    light.name = fit_name(light.name.empty() ? node.name : light.name, lights);
+    lights.push_back(std::move(light));
+  }
   void add(const tinygltf::Light& light, const tinygltf::Node& node, const Transform& world) {
     Light made{.name = fit_name(light.name.empty() ? node.name : light.name, lights), .shape = {}};
     Vec3 color(1.0);
@@ -126,15 +137,12 @@ std::vector<Light> read_gltf_lights(const GltfFile& file, std::span<const Placed
   LightMaker maker(file, casters, options, notes, warnings);
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Node& node = file.model.nodes[placed.node];
-    const auto extension = node.extensions.find(kExtension);
-    if (extension == node.extensions.end() || !extension->second.Has("light")) continue;
-    const tinygltf::Value& light = extension->second.Get("light");
-    const int i = light.IsNumber() ? light.GetNumberAsInt() : -1;
     const std::string where = "nodes[" + std::to_string(placed.node) + "]";
-    if (i < 0 || static_cast<std::size_t>(i) >= file.model.lights.size())
-      file.fail(where, "has a light that does not exist", "export it again");
-    if (maker.lights.size() == kMost) file.fail(where, "is one light more than a thousand", "leave some out");
-    maker.add(file.model.lights[static_cast<std::size_t>(i)], node, placed.world);
+    if (const tinygltf::Light* light = punctual_light_of(file, node, where))
+      maker.add(*light, node, placed.world);
+    if (std::optional<Light> light = read_gltf_area_light(file, node, where, placed.world, notes))
+      maker.add(std::move(*light), node);
+    if (maker.lights.size() > kMost) file.fail(where, "is one light more than a thousand", "leave some out");
   }
   return std::move(maker.lights);
 }

@@ -6,6 +6,8 @@
 //   spot, point  a disk of `extras.radius`, or of 1/50 of the casters' diagonal. A spot shines along its node's -z, its cone is ignored; a
 //                point has no side: its disk faces the middle of the casters
 //   intensity    lux and candela count as W/m² and W/sr: of a disk of radius r it is the radiance π r² times
+//
+// EXT_lights_area has sizes (gltf_area_lights.h).
 #pragma once
 
 #include <optional>

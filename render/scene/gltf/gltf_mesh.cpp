@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
+#include <limits>
 #include <numeric>
 
 #include "render/scene/gltf/gltf_accessors.h"
@@ -28,7 +30,8 @@ std::vector<std::uint32_t> triangles_of(int mode, const std::vector<std::uint32_
 /// Joins primitives, each with vertices of its own.
 class Joiner {
  public:
-  Joiner(const GltfFile& file, GltfNotes& notes) : file_(file), notes_(notes) {
+  Joiner(const GltfFile& file, std::optional<int> uv_set, GltfNotes& notes)
+      : file_(file), uv_set_(uv_set), notes_(notes) {
     soup_.first_corner.push_back(0);
     for (const tinygltf::Material& m : file.model.materials) soup_.materials.push_back(material_of(m));
   }
@@ -53,6 +56,7 @@ class Joiner {
         points.size() + soup_.positions.size() > 0xFFFFFFF0u)
       file_.fail(where, "makes the mesh too large", "divide it");
     add_normals(primitive, where, points.size(), corners);
+    if (uv_set_) add_uv(primitive, where, points.size(), corners);
     const auto first = static_cast<std::uint32_t>(soup_.positions.size());
     for (const std::uint32_t corner : corners) soup_.corners.push_back(first + corner);
     soup_.positions.insert(soup_.positions.end(), points.begin(), points.end());
@@ -70,7 +74,9 @@ class Joiner {
       soup_.corner_normals.resize(soup_.corners.size(), PolygonSoup::kNoNormal);
     else
       soup_.corner_normals.clear();
-    return MeshCache::entry_of(std::move(soup_));
+    MeshCache::Entry entry = MeshCache::entry_of(std::move(soup_));
+    if (has_uv_) entry.corner_uv = std::move(uv_);
+    return entry;
   }
 
  private:
@@ -119,6 +125,24 @@ class Joiner {
     soup_.normals.insert(soup_.normals.end(), normals.begin(), normals.end());
   }
 
+  void add_uv(const tinygltf::Primitive& primitive, const std::string& where, std::size_t points,
+              const std::vector<std::uint32_t>& corners) {
+    const std::string name = "TEXCOORD_" + std::to_string(*uv_set_);
+    const auto given = primitive.attributes.find(name);
+    if (given == primitive.attributes.end()) {
+      uv_.resize(uv_.size() + corners.size(), glm::dvec2(std::numeric_limits<double>::quiet_NaN()));
+      return;
+    }
+    const std::vector<double> uv = read_numbers(file_, given->second, 2, where + " " + name);
+    if (uv.size() != 2 * points)
+      file_.fail(where,
+                 "has " + std::to_string(uv.size() / 2) + " texture coordinates for " +
+                     std::to_string(points) + " vertices",
+                 "export it again");
+    has_uv_ = true;
+    for (const std::size_t corner : corners) uv_.emplace_back(uv[2 * corner], uv[2 * corner + 1]);
+  }
+
   void name_ignored(const tinygltf::Primitive& primitive) {
     if (!primitive.targets.empty()) notes_.ignore("morph targets");
     for (const auto& [name, accessor] : primitive.attributes)
@@ -126,15 +150,18 @@ class Joiner {
   }
 
   const GltfFile& file_;
+  const std::optional<int> uv_set_;
   GltfNotes& notes_;
   PolygonSoup soup_;
-  bool has_normals_ = false;
+  std::vector<glm::dvec2> uv_;
+  bool has_normals_ = false, has_uv_ = false;
 };
 
 }  // namespace
 
-std::optional<MeshCache::Entry> read_gltf_mesh(const GltfFile& file, std::size_t mesh, GltfNotes& notes) {
-  Joiner joiner(file, notes);
+std::optional<MeshCache::Entry> read_gltf_mesh(const GltfFile& file, std::size_t mesh,
+                                               std::optional<int> uv_set, GltfNotes& notes) {
+  Joiner joiner(file, uv_set, notes);
   const std::vector<tinygltf::Primitive>& primitives = file.model.meshes[mesh].primitives;
   for (std::size_t i = 0; i < primitives.size(); ++i)
     joiner.add(primitives[i], "meshes[" + std::to_string(mesh) + "].primitives[" + std::to_string(i) + "]");

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <utility>
 
+#include "mesh/vectors.h"
 #include "render/scene/gltf/gltf_accessors.h"
 
 namespace penumbra::detail {
@@ -129,6 +131,11 @@ class Walk {
 };
 
 }  // namespace
+
+Vec3 forward(const Transform& world) {
+  const Vec3 z = scaled_to_one(world.columns[2]);
+  return glm::length(z) > 0.0 ? -unit(z) : Vec3(0, 0, -1);
+}
 
 std::vector<PlacedNode> place_nodes(const GltfFile& file, GltfNotes& notes) {
   const tinygltf::Model& model = file.model;

@@ -7,6 +7,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "render/scene/default_scene.h"
+#include "render/scene/gltf/gltf_area_lights.h"
 #include "render/scene/gltf/gltf_lights.h"
 #include "render/scene/gltf/gltf_mesh.h"
 #include "render/scene/gltf/gltf_nodes.h"
@@ -26,8 +27,8 @@ std::array<double, 12> key_of(const Transform& t) {
 /// Makes objects of nodes.
 class ObjectMaker {
  public:
-  ObjectMaker(const GltfFile& file, GltfNotes& notes, LoadedScene& out)
-      : file_(file), notes_(notes), out_(out), meshes_(file.model.meshes.size()) {}
+  ObjectMaker(const GltfFile& file, std::optional<int> uv_set, GltfNotes& notes, LoadedScene& out)
+      : file_(file), uv_set_(uv_set), notes_(notes), out_(out), meshes_(file.model.meshes.size()) {}
 
   void add(const PlacedNode& placed) {
     const tinygltf::Node& node = file_.model.nodes[placed.node];
@@ -36,7 +37,7 @@ class ObjectMaker {
     if (static_cast<std::size_t>(node.mesh) >= meshes_.size())
       file_.fail(where, "has a mesh that does not exist", "export it again");
     const auto mesh = static_cast<std::size_t>(node.mesh);
-    if (!meshes_[mesh].read) meshes_[mesh] = {true, read_gltf_mesh(file_, mesh, notes_), {}};
+    if (!meshes_[mesh].read) meshes_[mesh] = {true, read_gltf_mesh(file_, mesh, uv_set_, notes_), {}};
     if (!meshes_[mesh].entry) return;
     const std::string& name = node.name.empty() ? file_.model.meshes[mesh].name : node.name;
     for (const Transform& at : placed.instances)
@@ -74,12 +75,14 @@ class ObjectMaker {
     }
     take_material_colors(*mesh.entry, object);
     take_normals(*mesh.entry, at, object);
+    take_uv(*mesh.entry, at, object);
     if (const std::string summary = summary_of(*mesh.entry, object.mesh.report()); !summary.empty())
       out_.warnings.push_back(file_.name + ": " + where + ": " + summary);
     objects.push_back(std::move(object));
   }
 
   const GltfFile& file_;
+  const std::optional<int> uv_set_;
   GltfNotes& notes_;
   LoadedScene& out_;
   std::vector<Mesh> meshes_;
@@ -90,8 +93,8 @@ void name_what_is_left_out(const GltfFile& file, GltfNotes& notes) {
   if (!file.model.animations.empty()) notes.ignore("animations");
   if (file.has_images) notes.ignore("textures");
   for (const std::string& extension : file.model.extensionsUsed)
-    if (extension != "KHR_lights_punctual" && extension != "KHR_mesh_quantization" &&
-        extension != "EXT_mesh_gpu_instancing")
+    if (extension != "KHR_lights_punctual" && extension != kAreaLights &&
+        extension != "KHR_mesh_quantization" && extension != "EXT_mesh_gpu_instancing")
       notes.ignore("extension " + extension.substr(0, 64));
 }
 
@@ -104,7 +107,7 @@ LoadedScene read_gltf(std::span<const std::byte> bytes, const std::filesystem::p
   GltfNotes notes;
   name_what_is_left_out(file, notes);
   const std::vector<PlacedNode> nodes = place_nodes(file, notes);
-  ObjectMaker maker(file, notes, out);
+  ObjectMaker maker(file, options.uv_set, notes, out);
   for (const PlacedNode& node : nodes) maker.add(node);
   Scene& scene = out.scene;
   if (scene.objects.empty()) file.fail("", "has no triangles", "export it with its meshes");
@@ -113,7 +116,7 @@ LoadedScene read_gltf(std::span<const std::byte> bytes, const std::filesystem::p
   if (scene.lights.empty()) {
     const DistantLight sun{{-0.4, -1.0, -0.3}, options.sun_angle.value_or(0.53)};
     scene.lights.push_back({.shape = sun, .radiance = Vec3(3.0 / irradiance_per_radiance(sun))});
-    out.warnings.push_back(name + ": has no lights (KHR_lights_punctual); it gets a sun");
+    out.warnings.push_back(name + ": has no lights (KHR_lights_punctual, EXT_lights_area); it gets a sun");
   }
   const std::optional<Camera> camera = read_gltf_camera(file, nodes, bounds, notes);
   scene.camera = camera ? *camera : camera_for(bounds);

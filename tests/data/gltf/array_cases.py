@@ -107,4 +107,20 @@ def sparse():
                       {"name": "moved", "triangles": triangles(TENT[:3] + [(0.5, 4, 0.25)], TENT_FACES, {"translation": [0, 0, 5]})}])
 
 
-CASES = (indices, unindexed, buffers, quantized, interleaved, sparse)
+def texture_places():
+    """Two sets of texture coordinates, the second of normalized 16-bit numbers, under a node that mirrors; beside it a primitive with the first alone."""
+    f = File()
+    rows = [(0, 0), (65535, 0), (0, 65535), (13107, 26214)]
+    tent, bare = f.tent(), f.tent()
+    first = f.accessor([(2.0, -3.0)] * 4, 5126)
+    tent["primitives"][0]["attributes"] |= {"TEXCOORD_0": first, "TEXCOORD_1": f.accessor(rows, 5123, normalized=True)}
+    bare["primitives"][0]["attributes"] |= {"TEXCOORD_0": first}
+    node = {"name": "tent", "mesh": 0, "scale": [-1, 1, 1]}
+    f.scene([node], [0], [{"primitives": tent["primitives"] + bare["primitives"]}])
+    f.write_glb("texture_places.glb")
+    order = [(a, c, b) for a, b, c in TENT_FACES]
+    expect("texture_places", [{"name": "tent", "triangles": 2 * triangles(TENT, TENT_FACES, node),
+                               "uv": [[[x / 65535 for x in rows[i]] for i in t] for t in order] + [None] * len(order)}])
+
+
+CASES = (texture_places, indices, unindexed, buffers, quantized, interleaved, sparse)

@@ -71,15 +71,19 @@ def cameras():
 
 
 def lights():
-    """Each kind below a node that turns and scales it; sizes in the extras of the light or of its node; an area light, which is no part of the format."""
+    """Each kind below a node that turns and scales it; sizes in the extras of the light or of its node; area lights, whose size grows with their largest scale."""
     f = File()
     arm = {"translation": [1, 2, 3], "rotation": turned((1, 0, 0), -60), "scale": [2, 2, 2]}
     named = lambda k: {"extensions": {"KHR_lights_punctual": {"light": k}}}
-    places = [{"rotation": turned((0, 1, 0), 20)}, {"translation": [0, 0, 4]}, {"translation": [1, 0, 0], "rotation": turned((0, 1, 0), -45)}]
-    f.scene([{"name": "tent", "mesh": 0}, arm | {"children": [2, 3, 4, 5]}, places[0] | named(0) | {"extras": {"angle_degrees": 1.25}}, places[1] | named(1),
-             places[2] | named(2) | {"extras": {"radius": 0.75}}, {"name": "panel", "extensions": {"EXT_lights_area": {"light": 0}}}], [0, 1], [f.tent()],
+    places = [{"rotation": turned((0, 1, 0), 20)}, {"translation": [0, 0, 4]}, {"translation": [1, 0, 0], "rotation": turned((0, 1, 0), -45)},
+              {"translation": [0, 3, 1], "rotation": turned((1, 2, 0), 35), "scale": [0.5, 3, 1]}, {"translation": [2, 3, 0], "rotation": turned((0, 1, 1), 70)}]
+    area = lambda k: {"extensions": {"EXT_lights_area": {"light": k}}}
+    f.scene([{"name": "tent", "mesh": 0}, arm | {"children": [2, 3, 4, 5, 6]}, places[0] | named(0) | {"extras": {"angle_degrees": 1.25}}, places[1] | named(1),
+             places[2] | named(2) | {"extras": {"radius": 0.75}}, places[3] | area(1) | {"name": "panel"}, places[4] | area(0)], [0, 1], [f.tent()],
             extensionsUsed=["KHR_lights_punctual", "EXT_lights_area"],
-            extensions={"KHR_lights_punctual": {"lights": [
+            extensions={"EXT_lights_area": {"lights": [{"type": "disk", "name": "lamp", "size": 0.5, "color": [1, 0.5, 0.25], "intensity": 20},
+                                                       {"type": "rect", "size": 0.25, "rect": {"aspect": 4}}]},
+                        "KHR_lights_punctual": {"lights": [
                 {"type": "directional", "name": "sun", "color": [1, 0.9, 0.5], "intensity": 2},
                 {"type": "point", "name": "bulb", "intensity": 7, "extras": {"radius": 0.25}},
                 {"type": "spot", "name": "spot", "color": [0.5, 1, 0.25], "intensity": 4, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.5}}]}})
@@ -89,8 +93,11 @@ def lights():
     expect("lights", [{"name": "tent", "triangles": triangles(TENT, TENT_FACES)}],
            lights=[{"name": "sun", "direction": way(0), "angle_degrees": 1.25, "irradiance": [2, 1.8, 1]},
                    {"name": "bulb", "center": at((0, 0, 0), 1), "radius": 0.25, "radiance": [7 / (math.pi / 16)] * 3},
-                   {"name": "spot", "center": at((0, 0, 0), 2), "normal": way(2), "radius": 0.75, "radiance": [c / (math.pi * 0.5625) for c in (2, 4, 1)]}],
-           ignored=["cones of spot lights", "extension EXT_lights_area"])
+                   {"name": "spot", "center": at((0, 0, 0), 2), "normal": way(2), "radius": 0.75, "radiance": [c / (math.pi * 0.5625) for c in (2, 4, 1)]},
+                   {"name": "panel", "extension": "EXT_lights_area", "center": at((0, 0, 0), 3), "normal": way(3), "tangent": [b - a for a, b in zip(at((0, 0, 0), 3), at((1, 0, 0), 3))],
+                    "half_extents": [3.0, 0.75], "radiance": [1000] * 3},
+                   {"name": "lamp", "extension": "EXT_lights_area", "center": at((0, 0, 0), 4), "normal": way(4), "radius": 0.5, "radiance": [20, 10, 5]}],
+           ignored=["cones of spot lights"])
 
 
 def png():
