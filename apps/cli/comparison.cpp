@@ -32,6 +32,8 @@ struct Resampling {
 };
 // Of the worst pixels. The oracle's rays take some ten times as long as Embree's.
 constexpr Resampling kByRays{0.02, 1'000, 65'536}, kByOracle{0.0, 300, 32'768};
+// Errors that are so many times the references' noise are stated as they are: the noise changes them by less than a hundredth.
+constexpr double kFarAboveNoise = 25.0;
 constexpr int kCertificateSamples = 256;
 // Two references, then the worst pixels again. No seed that a person would give a rendering: against itself a
 // noisy image would look free of error.
@@ -319,7 +321,9 @@ Comparison SceneComparison::State::compare(const Image& image) {
   const std::vector<float>& method = image.at(judged_.channel());
   comparison.samples = options_.samples;
   set_figures(comparison, method, references_, options_.quiet);
-  if (options_.resample && !comparison.penumbra.empty())
+  if (options_.resample && !comparison.penumbra.empty() &&
+      comparison.in_penumbra.p99_absolute <
+          kFarAboveNoise * reference_noise(references_.first, references_.second, comparison.penumbra))
     resample_worst(
         comparison, method, references_,
         [this](const auto& pixels, auto... how) { return trace_again(pixels, how...); },

@@ -94,6 +94,16 @@ ErrorFigures error_figures(std::span<const float> method, std::span<const float>
   return figures;
 }
 
+double reference_noise(std::span<const float> reference1, std::span<const float> reference2,
+                       std::span<const std::uint32_t> selected) {
+  double sum = 0.0;
+  for (const std::uint32_t i : selected) {
+    const double half = 0.5 * (reference1[i] - double{reference2[i]});
+    sum += half * half;
+  }
+  return std::sqrt(sum / std::max(1.0, static_cast<double>(selected.size())));
+}
+
 std::vector<std::uint32_t> true_penumbra(std::span<const float> reference1, std::span<const float> reference2,
                                          std::span<const std::uint32_t> candidates) {
   std::vector<std::uint32_t> pixels;

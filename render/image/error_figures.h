@@ -29,6 +29,9 @@ struct ErrorFigures {
 ErrorFigures error_figures(std::span<const float> method, std::span<const float> reference1,
                            std::span<const float> reference2, std::span<const std::uint32_t> selected,
                            const Progress& progress = {});
+/// The RMS noise of (r1 + r2)/2 over these pixels: half of that of r1 - r2. 0 for none.
+double reference_noise(std::span<const float> reference1, std::span<const float> reference2,
+                       std::span<const std::uint32_t> selected);
 /// Pixels of `candidates` in true penumbra.
 std::vector<std::uint32_t> true_penumbra(std::span<const float> reference1, std::span<const float> reference2,
                                          std::span<const std::uint32_t> candidates);
