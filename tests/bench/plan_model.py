@@ -335,13 +335,15 @@ def errors(path, document=None):
 def check(chance, foolish=None):
     print(said_of_chance(chance))
     if foolish:
-        print("\n" + said_of(read_rows(foolish), "scenes on which some method is foolish, for errors of .05 to .002"))
+        print("\n" + said_of_foolish(foolish))
 
 
-def write_checked(chance, document):
-    replace_block(document, "<!-- check -->", said_of_chance(chance))
+def said_of_foolish(foolish):
+    return said_of(read_rows(foolish), "scenes on which some method is foolish, for errors of .05 to .002")
 
 
 if __name__ == "__main__":
     command, paths = sys.argv[1], [Path(path) for path in sys.argv[2:]]
-    {"fit": fit, "check": check, "errors": errors, "checked": write_checked, "example": write_example}[command](*paths)
+    {"fit": fit, "check": check, "errors": errors, "example": write_example,
+     "checked": lambda rows, document: replace_block(document, "<!-- check -->", said_of_chance(rows)),
+     "foolish": lambda rows, document: replace_block(document, "<!-- foolish -->", said_of_foolish(rows))}[command](*paths)
