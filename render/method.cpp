@@ -139,6 +139,7 @@ void require_complete(const MethodInfo& method, const MethodResult& result, std:
   const auto fits = [&](std::size_t size, bool optional) {
     return size == receivers || (optional && size == 0);
   };
+  if (result.is_dark) return;
   if (!fits(result.visibility.size(), false) || !fits(result.unoccluded.size(), true) ||
       !fits(result.region.size(), true))
     throw UsageError("method " + method.name + " has not answered for every receiver");

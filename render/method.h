@@ -49,6 +49,9 @@ struct MethodInput {
 };
 
 struct MethodResult {
+  /// No receiver sees any of the light, which a plan has found out without a look at each. What there is one a receiver of may
+  /// then be empty. Only by the methods `auto` and `plan`.
+  bool is_dark = false;
   /// V, one a receiver: the fraction of the light's area that is unblocked and above the receiver's horizon.
   /// 1 where there is no receiver, 0 behind the light's plane.
   std::vector<float> visibility;
@@ -117,7 +120,7 @@ const std::deque<MethodInfo>& methods();
 /// Throws UsageError that lists the names.
 const MethodInfo& method_named(std::string_view name);
 
-/// The method that is used where nothing else is asked for.
+/// The method where the library is not told another one, and that others are compared with: its areas are exact.
 inline constexpr const char* kDefaultMethod = "silhouette";
 
 /// Throws UsageError that names the method where it does not take this light.

@@ -16,6 +16,7 @@
 #include "render/light/valid_light.h"
 #include "render/occlusion_textures/occlusion_textures_method.h"
 #include "render/plan/auto_method.h"
+#include "render/plan/unshadowed.h"
 #include "render/receivers/unlit.h"
 #include "render/scene/scene_limits.h"
 #include "render/shading/glass.h"
@@ -40,7 +41,7 @@ void add_to(StageTimes& sums, const StageTimes& times) {
 
 std::vector<LightVisibility> seen_of(const std::vector<MethodFrame>& lights) {
   std::vector<LightVisibility> seen;
-  for (const MethodFrame& frame : lights) seen.push_back({frame.visibility, frame.region});
+  for (const MethodFrame& frame : lights) seen.push_back({frame.visibility, frame.region, frame.is_dark});
   return seen;
 }
 
@@ -76,6 +77,13 @@ bool is_same(const SurfaceBuffer& a, const SurfaceBuffer& b) {
   return a.revision != 0 && a.revision == b.revision && a.size() == b.size();
 }
 
+std::optional<std::string> why_unlit(const Light& light, const SurfaceBuffer& surface,
+                                     const MethodFrame& seen) {
+  if (!seen.is_dark) return why_nothing_is_lit(light, surface.receivers(), seen.visibility);
+  const bool any = std::ranges::any_of(surface.object, [](std::int32_t object) { return object >= 0; });
+  return any ? std::optional(why_dark(light)) : std::nullopt;
+}
+
 /// On all threads: taking the memory takes as long as filling it.
 void copy(const SurfaceBuffer& from, const detail::Threads& threads, SurfaceBuffer& to) {
   to.revision = 0;  // until all of it is there
@@ -105,9 +113,14 @@ struct Renderer::State {
   void require_good(const MethodInfo& info, const RenderOptions& options) const;
   /// What the camera sees; what an earlier picture saw where nothing has changed that it depends on.
   const SurfaceBuffer& look(const RenderOptions& options, const PointInPixel& at, const Progress& progress);
+  struct Wanted {
+    bool textures = false;
+    /// Visibility of lights that reach nothing.
+    bool dark = false;
+  };
   /// What the surface sees of every light. Adds the time of stages to `stages`.
   std::vector<MethodFrame> see(const MethodInfo& info, const OptionValues& values,
-                               const SurfaceBuffer& surface, bool keep_textures, const Progress& progress,
+                               const SurfaceBuffer& surface, const Wanted& wanted, const Progress& progress,
                                StageTimes& stages);
   /// Puts glass and lights that are seen over a picture.
   template <class Picture>
@@ -149,22 +162,25 @@ void Renderer::State::require_good(const MethodInfo& info, const RenderOptions& 
 }
 
 std::vector<MethodFrame> Renderer::State::see(const MethodInfo& info, const OptionValues& values,
-                                              const SurfaceBuffer& surface, bool keep_textures,
+                                              const SurfaceBuffer& surface, const Wanted& wanted,
                                               const Progress& progress, StageTimes& stages) {
   std::vector<MethodFrame> frames;
   const auto count = static_cast<double>(scene.lights.size());
   for (std::size_t k = 0; k < scene.lights.size(); ++k) {
     const auto begin = static_cast<double>(k);
     const Progress part = part_of(progress, begin / count, (begin + 1.0) / count);
-    MethodResult result = casters.impl().method(info).run({.rays = casters.impl().rays(),
-                                                           .light = scene.lights[k].shape,
-                                                           .receivers = surface.receivers(),
-                                                           .options = values,
-                                                           .keep_textures = keep_textures,
-                                                           .progress = part});
+    const MethodInput input{.rays = casters.impl().rays(),
+                            .light = scene.lights[k].shape,
+                            .receivers = surface.receivers(),
+                            .options = values,
+                            .keep_textures = wanted.textures,
+                            .progress = part};
+    MethodResult result = casters.impl().method(info).run(input);
+    if (wanted.dark) detail::fill_dark(input, result);
     require_complete(info, result, surface.size());
     add_to(stages, result.stages);
     frames.push_back({.light = scene.lights[k].name,
+                      .is_dark = result.is_dark,
                       .visibility = std::move(result.visibility),
                       .region = std::move(result.region),
                       .stages = std::move(result.stages),
@@ -194,7 +210,7 @@ void Renderer::State::add_samples(const MethodInfo& info, const RenderOptions& o
     const SurfaceBuffer& surface = look(options, points[i], part_of(frame, 0.0, kLook));
     clock.finish("surface_buffer");
     const std::vector<MethodFrame> frames =
-        see(info, values, surface, false, part_of(frame, kLook, 1.0), out.stages);
+        see(info, values, surface, {}, part_of(frame, kLook, 1.0), out.stages);
     clock.restart();
     Colors colors = shade_colors(scene, surface, seen_of(frames), casters.impl().threads);
     add_glass(surface, points[i], colors);
@@ -287,13 +303,15 @@ void Renderer::render(const RenderOptions& options, RenderResult& out) {
   clock.finish("surface_buffer");
   out.stages = clock.stages();
   report(options.progress, kLook * first);
-  out.lights = state_->see(info, out.options, surface, options.keep_textures,
+  out.lights = state_->see(info, out.options, surface,
+                           {.textures = options.keep_textures, .dark = !options.leave_out_dark},
                            part_of(options.progress, kLook * first, first), out.stages);
   report(options.progress, first);
   StageClock shading;
   const detail::Threads& threads = state_->casters.impl().threads;
   const bool has_surface = is_same(out.surface, surface);
-  shade(state_->scene, surface, seen_of(out.lights), threads, has_surface, out.image);
+  shade(state_->scene, surface, seen_of(out.lights), threads,
+        {.has_surface = has_surface, .leave_out_dark = options.leave_out_dark}, out.image);
   state_->add_glass(surface, {}, out.image);
   shading.finish("shading");
   add_to(out.stages, shading.stages());
@@ -305,11 +323,15 @@ void Renderer::render(const RenderOptions& options, RenderResult& out) {
   out.setup = {{"ray_scene", rays.build_ms()}};
   for (std::size_t k = 0; k < out.lights.size(); ++k) {
     add_to(out.setup, out.lights[k].setup);
-    if (auto warning =
-            why_nothing_is_lit(state_->scene.lights[k], surface.receivers(), out.lights[k].visibility))
+    if (auto warning = why_unlit(state_->scene.lights[k], surface, out.lights[k]))
       out.warnings.push_back(std::move(*warning));
   }
   for (const SceneObject& object : state_->scene.objects) out.scene_faces += object.mesh.triangles().size();
+}
+
+void add_dark_channels(const Scene& scene, RenderResult& result, int threads) {
+  detail::add_dark_channels(scene, result.surface, seen_of(result.lights), detail::make_threads(threads),
+                            result.image);
 }
 
 RenderResult render(const Scene& scene, const RenderOptions& options, int threads, int warm_up) {

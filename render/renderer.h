@@ -36,6 +36,9 @@ struct RenderOptions {
   int antialias = 1;
   /// MethodFrame::textures is wanted.
   bool keep_textures = false;
+  /// Of lights that reach nothing (MethodFrame::is_dark) there are neither visibility and region nor channels of the picture;
+  /// add_dark_channels() adds the latter. To fill them for a hundred such lights takes longer than the frame of three that shine.
+  bool leave_out_dark = false;
   /// Asked between stages and in the long ones.
   Progress progress{};
 };
@@ -44,6 +47,8 @@ struct RenderOptions {
 struct MethodFrame {
   /// As in Scene::lights.
   std::string light;
+  /// No pixel sees any of the light, which the method `auto` has found out without a look at each.
+  bool is_dark = false;
   std::vector<float> visibility;
   std::vector<std::int8_t> region;
   StageTimes stages, setup;
@@ -76,6 +81,9 @@ struct RenderResult {
   /// One line for each light of which nothing that is seen gets any: why that is so.
   std::vector<std::string> warnings;
 };
+
+/// Adds visibility and region of lights that reach nothing to a picture of the scene that was drawn without them.
+void add_dark_channels(const Scene& scene, RenderResult& result, int threads = 0);
 
 /// Draws pictures of a scene that it owns. What has changed since the picture before it finds out itself: the
 /// camera, a light, the size, the method. What has not is kept (what the camera sees, groups of receivers, classes and

@@ -3,6 +3,7 @@
 #include "penumbra/mesh/error.h"
 #include "render/casters_impl.h"
 #include "render/light/valid_light.h"
+#include "render/plan/unshadowed.h"
 
 namespace penumbra {
 namespace {
@@ -63,12 +64,14 @@ MethodResult visibility(const Casters& casters, const LightShape& light, const R
                          std::to_string(casters.objects().size()));
   Casters::Impl& impl = casters.impl();
   const std::lock_guard lock(impl.mutex);
-  MethodResult result = impl.method(info).run({.rays = impl.rays(),
-                                               .light = light,
-                                               .receivers = receivers,
-                                               .options = values,
-                                               .with_unoccluded = options.with_unoccluded,
-                                               .progress = options.progress});
+  const MethodInput input{.rays = impl.rays(),
+                          .light = light,
+                          .receivers = receivers,
+                          .options = values,
+                          .with_unoccluded = options.with_unoccluded,
+                          .progress = options.progress};
+  MethodResult result = impl.method(info).run(input);
+  detail::fill_dark(input, result);
   require_complete(info, result, receivers.size());
   if (options.with_unoccluded && result.unoccluded.empty()) result.unoccluded = result.visibility;
   return result;

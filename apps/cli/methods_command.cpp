@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/commands.h"
+#include "apps/common/method_options.h"
 #include "apps/common/outputs.h"
 #include "penumbra/render/method.h"
 
@@ -28,7 +29,7 @@ std::string lights_of(const MethodInfo& method) {
 std::string to_table() {
   std::string text;
   for (const MethodInfo& method : methods()) {
-    text += method.name + (method.name == kDefaultMethod ? " (default)" : "") + ": " + method.summary + "\n";
+    text += method.name + (method.name == kMethodOfRender ? " (default)" : "") + ": " + method.summary + "\n";
     text += "  lights: " + lights_of(method) + (method.needs_opengl ? "; needs OpenGL" : "") +
             (method.certifies ? "; certifies" : "") + "\n";
     for (const OptionSchema& option : method.options)
@@ -50,7 +51,7 @@ nlohmann::json to_json(const MethodInfo& method) {
   nlohmann::json options = nlohmann::json::array();
   for (const OptionSchema& option : method.options) options.push_back(to_json(option));
   return {{"name", method.name},
-          {"default", method.name == kDefaultMethod},
+          {"default", method.name == kMethodOfRender},
           {"summary", method.summary},
           {"lights", lights_of(method)},
           {"needs_pixels", method.needs_pixels},

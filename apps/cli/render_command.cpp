@@ -22,6 +22,7 @@ namespace {
 
 constexpr const char* kFooter = R"(Examples:
   penumbra render bunny.ply --output bunny.png
+  penumbra render scene.json --max-error 0.002 --output fine.png
   penumbra render scene.json --method reference --samples 1024 --size 1280x960 --output r.exr
   penumbra render scene.json --output s.exr --output s.png --stats s.json
   penumbra render scene.json --output - | display
@@ -30,7 +31,7 @@ Lengths are scene units, times in --stats milliseconds, visibility the fraction 
 struct Arguments {
   CommonOptions common;
   SceneInput scene;
-  std::string method = kDefaultMethod, size = "640x480", probe;
+  std::string method = kMethodOfRender, size = "640x480", probe;
   PictureOptions picture;
   std::vector<std::filesystem::path> images;
   std::filesystem::path stats, plan;
@@ -130,6 +131,7 @@ void run(const Arguments& arguments) {
   apply(arguments.picture, scene);
   require_apart(arguments.outputs(), scene.files);
   options.antialias = scene.picture.antialias;
+  options.leave_out_dark = true;
   if (!arguments.plan.empty()) options.method = method_of_plans(arguments.plan, scene);
   RenderResult result;
   {
@@ -143,6 +145,10 @@ void run(const Arguments& arguments) {
   for (const std::string& warning : result.warnings) complain("warning: " + warning);
   say_what_is_not_kept(result);
   if (arguments.common.verbose) say_stages(result);
+  // An EXR has the channels of all lights; to fill them is no part of the frame.
+  if (!arguments.probe.empty() ||
+      std::ranges::any_of(arguments.images, [](const auto& path) { return extension_of(path) == ".exr"; }))
+    add_dark_channels(scene, result, arguments.common.threads);
   result.image.metadata = metadata_of(scene, arguments.scene.path.string(), result);
   const Display display{arguments.exposure, scene.picture.background};
   for (const auto& output : arguments.images) {

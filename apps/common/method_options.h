@@ -11,6 +11,9 @@ class App;
 
 namespace penumbra::apps {
 
+/// The method of `penumbra render` where none is named.
+inline constexpr const char* kMethodOfRender = "auto";
+
 /// Adds every option of every method, in a group for each set of methods that has it. What is given goes into
 /// `values`, which must outlive the command. Options of methods that are not used have no effect.
 void add_method_options(CLI::App& command, OptionValues& values);

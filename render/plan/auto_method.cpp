@@ -77,7 +77,10 @@ class PlannedMethod : public Method {
   MethodResult follow(const MethodInput& input, const LightPlan& plan, const BoxedGroups* groups) {
     StageClock clock;
     if (plan.action == LightPlan::Action::kMethod) return run_method(input, plan, groups);
-    MethodResult out = see_unshadowed(input);
+    MethodResult out;
+    out.is_dark = plan.action == LightPlan::Action::kDark;
+    if (out.is_dark) return out;
+    out = see_unshadowed(input);
     clock.finish("unshadowed");
     out.stages = clock.stages();
     return out;
@@ -128,7 +131,7 @@ class AutoMethod : public PlannedMethod {
         request);
     clock.finish("plan");
     MethodResult out = follow(input, plan, &kept_->groups);
-    if (out.region.empty()) out.region.assign(input.receivers.size(), -1);
+    if (out.region.empty() && !out.is_dark) out.region.assign(input.receivers.size(), -1);
     out.stages.insert(out.stages.begin(), clock.stages().begin(), clock.stages().end());
     out.decisions = std::move(plan.decisions);
     return out;
@@ -169,7 +172,7 @@ class GivenPlanMethod : public PlannedMethod {
     if (at == std::ssize(lights_)) throw UsageError("there is no plan for this light; make plans again");
     const LightPlan& plan = plans_[static_cast<std::size_t>(at)];
     MethodResult out = follow(input, plan, input.groups);
-    if (out.region.empty()) out.region.assign(input.receivers.size(), -1);
+    if (out.region.empty() && !out.is_dark) out.region.assign(input.receivers.size(), -1);
     out.decisions = plan.decisions;
     return out;
   }

@@ -1,5 +1,7 @@
 #include "render/plan/unshadowed.h"
 
+#include <utility>
+
 #include "render/light/light_integrals.h"
 #include "render/rays/each_receiver.h"
 #include "render/rays/ray_scene.h"
@@ -27,6 +29,14 @@ MethodResult see_unshadowed(const MethodInput& input) {
     if (input.with_unoccluded) out.unoccluded[i] = behind ? 0.0f : 1.0f;
   });
   return out;
+}
+
+void fill_dark(const MethodInput& input, MethodResult& result) {
+  if (!result.is_dark || !result.visibility.empty()) return;
+  MethodResult seen = see_unshadowed(input);
+  result.visibility = std::move(seen.visibility);
+  result.unoccluded = std::move(seen.unoccluded);
+  result.region = std::move(seen.region);
 }
 
 }  // namespace penumbra::detail

@@ -9,4 +9,7 @@ namespace penumbra::detail {
 /// traced. Cost O(receivers).
 MethodResult see_unshadowed(const MethodInput& input);
 
+/// Fills in what a result that is dark has left out. Cost O(receivers).
+void fill_dark(const MethodInput& input, MethodResult& result);
+
 }  // namespace penumbra::detail

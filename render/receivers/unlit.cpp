@@ -3,6 +3,17 @@
 #include "render/light/light_integrals.h"
 
 namespace penumbra {
+namespace {
+
+std::string nothing_by(const Light& light) {
+  return (light.name.empty() ? "the light" : "light " + light.name) + " lights nothing that is seen: ";
+}
+
+}  // namespace
+
+std::string why_dark(const Light& light) {
+  return nothing_by(light) + "all of it faces away from the light or lies behind its plane";
+}
 
 std::optional<std::string> why_nothing_is_lit(const Light& light, const Receivers& receivers,
                                               std::span<const float> visibility) {
@@ -18,11 +29,10 @@ std::optional<std::string> why_nothing_is_lit(const Light& light, const Receiver
              fraction_above_horizon(area, receivers.points[i], receivers.normals[i]) > 0.0;
   }
   if (!any) return std::nullopt;
-  const std::string nothing =
-      (light.name.empty() ? "the light" : "light " + light.name) + " lights nothing that is seen: ";
+  const std::string nothing = nothing_by(light);
   if (!in_front)
     return nothing + "all of it lies behind the light's plane; turn the light's normal or move it";
-  if (!facing) return nothing + "all of it faces away from the light or lies behind its plane";
+  if (!facing) return why_dark(light);
   return nothing + "casters hide the light from all of it; it may lie inside of one or behind one";
 }
 

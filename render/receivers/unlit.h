@@ -16,4 +16,7 @@ namespace penumbra {
 std::optional<std::string> why_nothing_is_lit(const Light& light, const Receivers& receivers,
                                               std::span<const float> visibility);
 
+/// The same of a light of which it is known that it reaches nothing.
+std::string why_dark(const Light& light);
+
 }  // namespace penumbra

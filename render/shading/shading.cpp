@@ -100,12 +100,13 @@ class Shader {
  public:
   Shader(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights)
       : scene_(scene), surface_(surface), up_(detail::unit(scene.camera.up)) {
-    for (std::size_t k = 0; k < lights.size(); ++k) lights_.emplace_back(scene.lights[k], lights[k]);
+    for (std::size_t k = 0; k < lights.size(); ++k)
+      if (!lights[k].is_dark) lights_.emplace_back(scene.lights[k], lights[k]);
     for (const SceneObject& object : scene.objects) materials_.emplace_back(object, scene.picture);
   }
 
-  /// Calls `visit(pixel, color, is_behind)` for each pixel, on all threads: its R G B A, and is_behind(light). Of a pixel that
-  /// shows no surface both are 0.
+  /// Calls `visit(pixel, color, is_behind)` for each pixel, on all threads: its R G B A, and is_behind(k) for the kth light that
+  /// is not dark. Of a pixel that shows no surface both are 0.
   template <class Visit>
   void for_each_pixel(const detail::Threads& threads, const Visit& visit) const {
     constexpr std::size_t kBlock = LightFactors::kMost;
@@ -178,6 +179,7 @@ class Shader {
   const Scene& scene_;
   const SurfaceBuffer& surface_;
   Vec3 up_;
+  /// All that are not dark.
   std::vector<ShadedLight> lights_;
   /// One an object.
   std::vector<Material> materials_;
@@ -230,6 +232,10 @@ struct LightChannels {
   }
 };
 
+std::string channel_of(const Scene& scene, std::size_t light, const char* name) {
+  return scene.lights.size() > 1 ? std::string(name) + "." + scene.lights[light].name : name;
+}
+
 const std::vector<std::string> kSurfaceChannels{"object", "P.X", "P.Y", "P.Z", "N.X", "N.Y", "N.Z"};
 
 void write_surface(const SurfaceBuffer& surface, const detail::Threads& threads, Channels& channels) {
@@ -256,27 +262,29 @@ void write_surface(const SurfaceBuffer& surface, const detail::Threads& threads,
 Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
             const detail::Threads& threads) {
   Image image;
-  shade(scene, surface, lights, threads, false, image);
+  shade(scene, surface, lights, threads, {}, image);
   return image;
 }
 
 void shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
-           const detail::Threads& threads, bool has_surface, Image& image) {
+           const detail::Threads& threads, const ShadeOptions& options, Image& image) {
   image.width = surface.width;
   image.height = surface.height;
   Channels channels(image);
-  if (!has_surface) write_surface(surface, threads, channels);
-  std::vector<std::string> names{"R", "G", "B", "A"};
+  if (!options.has_surface) write_surface(surface, threads, channels);
+  std::vector<std::string> kept{"R", "G", "B", "A"};
   for (std::size_t k = 0; k < lights.size(); ++k)
-    for (const char* name : {"visibility", "region"})
-      names.push_back(lights.size() > 1 ? std::string(name) + "." + scene.lights[k].name : name);
-  channels.make(names, threads);
-  channels.drop_all_but(names, kSurfaceChannels);
+    if (!lights[k].is_dark || !options.leave_out_dark)
+      for (const char* name : {"visibility", "region"}) kept.push_back(channel_of(scene, k, name));
+  channels.make(kept, threads);
+  channels.drop_all_but(kept, kSurfaceChannels);
   float* rgba[4] = {channels["R"], channels["G"], channels["B"], channels["A"]};
   std::vector<LightChannels> of_lights;
   for (std::size_t k = 0; k < lights.size(); ++k)
-    of_lights.push_back(
-        {lights[k].region, lights[k].visibility, channels[names[4 + 2 * k]], channels[names[5 + 2 * k]]});
+    if (!lights[k].is_dark)
+      of_lights.push_back({lights[k].region, lights[k].visibility,
+                           channels[channel_of(scene, k, "visibility")],
+                           channels[channel_of(scene, k, "region")]});
   const Shader shader(scene, surface, lights);
   shader.for_each_pixel(threads, [&](std::size_t i, const Rgba& color, const auto& is_behind) {
     for (std::size_t k = 0; k < 4; ++k) rgba[k][i] = color[k];
@@ -286,6 +294,30 @@ void shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const Lig
       else
         of_lights[k].write_none(i);
   });
+  if (!options.leave_out_dark) detail::add_dark_channels(scene, surface, lights, threads, image);
+}
+
+void detail::add_dark_channels(const Scene& scene, const SurfaceBuffer& surface,
+                               std::span<const LightVisibility> lights, const Threads& threads,
+                               Image& image) {
+  Channels channels(image);
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    if (!lights[k].is_dark) continue;
+    const std::string visibility = channel_of(scene, k, "visibility"),
+                      region = channel_of(scene, k, "region");
+    channels.make({visibility, region}, threads);
+    const AreaLight light = area_light(scene.lights[k].shape);
+    float *seen = channels[visibility], *certified = channels[region];
+    threads->execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, surface.size(), 4096), [&](const auto& range) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          const bool hit = surface.hit(i);
+          seen[i] = hit ? 0.0f : 1.0f;
+          certified[i] = hit && light.is_behind(surface.position[i]) ? 2.0f : -1.0f;
+        }
+      });
+    });
+  }
 }
 
 Colors shade_colors(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,

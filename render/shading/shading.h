@@ -33,6 +33,15 @@ struct LightVisibility {
   std::span<const float> visibility;
   /// One a pixel, or empty: then -1 (not certified) everywhere but behind the light's plane, where it is 2.
   std::span<const std::int8_t> region;
+  /// Visibility is known to be 0 wherever there is a surface; both may then be empty.
+  bool is_dark = false;
+};
+
+struct ShadeOptions {
+  /// The image was for the same surface; object, P and N then stay as they are.
+  bool has_surface = false;
+  /// No channels for lights that are dark.
+  bool leave_out_dark = false;
 };
 
 /// R G B A alone.
@@ -41,14 +50,20 @@ struct Colors {
 };
 
 /// Every channel of a picture: R G B A, visibility and region, object, P and N. With several lights there is a
-/// visibility.NAME and a region.NAME for each. Cost O(pixels · lights), on all threads.
+/// visibility.NAME and a region.NAME for each. Cost O(pixels · lights), of dark ones that of filling their channels; on all
+/// threads.
 Image shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
             const detail::Threads& threads);
 
 /// The same into an image, whose memory is used again: one that an earlier call for the same scene and as many pixels made.
-/// `has_surface`: it was for the same surface; object, P and N then stay as they are.
 void shade(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,
-           const detail::Threads& threads, bool has_surface, Image& image);
+           const detail::Threads& threads, const ShadeOptions& options, Image& image);
+
+namespace detail {
+/// The channels of dark lights.
+void add_dark_channels(const Scene& scene, const SurfaceBuffer& surface,
+                       std::span<const LightVisibility> lights, const Threads& threads, Image& image);
+}  // namespace detail
 
 /// What shade() gives for R G B A. Regions are not looked at.
 Colors shade_colors(const Scene& scene, const SurfaceBuffer& surface, std::span<const LightVisibility> lights,

@@ -234,7 +234,7 @@ def terrain(part):
 
 # name, when, figure's name, lights, needs
 METHODS = [
-    ("`silhouette`", "the default: exact areas, no noise", "silhouette", "disk, distant", "CPU"),
+    ("`silhouette`", "exact areas, no noise", "silhouette", "disk, distant", "CPU"),
     ("`dbuffer`", "shadow boundaries by OpenGL; the 2004 paper and our corrections", "dbuffer", "disk, distant", "OpenGL 4.5"),
     ("`occlusion-textures`", "many small faces; time does not depend on the light's size", "occlusion-textures",
      "disk, rectangle, distant", "OpenGL 4.5"),
