@@ -32,9 +32,10 @@ TEST_F(CommandTest, HelpAndVersionAreFine) {
 
 TEST_F(CommandTest, RectanglesAreRefusedInOneLineWhereADiskIsNeeded) {
   const std::string scene = PENUMBRA_DATA "/scenes/textures6.json";
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"classify", scene},
-                                                    {"volumes", scene, "--report", "-"},
-                                                    {"render", scene, "--size", "16x12", "--stats", "-"}}) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"classify", scene},
+        {"volumes", scene, "--report", "-"},
+        {"render", scene, "--method", "silhouette", "--size", "16x12", "--stats", "-"}}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments[0];
     EXPECT_NE(outcome.err.find("needs a disk light"), std::string::npos) << outcome.err;

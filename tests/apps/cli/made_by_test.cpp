@@ -55,10 +55,10 @@ TEST_F(MadeByTest, IsSaidByCompare) {
   const std::string a = drawn("a.exr", scene_, {}),
                     b = drawn("b.exr", scene_, {"--method", "rays", "--samples", "16"});
   const std::string out = run({"compare", a, b}).out;
-  EXPECT_NE(out.find("A " + a + ": silhouette of " + scene_ + " by penumbra "), std::string::npos) << out;
+  EXPECT_NE(out.find("A " + a + ": auto of " + scene_ + " by penumbra "), std::string::npos) << out;
   EXPECT_NE(out.find("B " + b + ": rays (samples 16, seed 1) of " + scene_), std::string::npos) << out;
   const json report = json::parse(run({"compare", a, b, "--json"}).out);
-  EXPECT_EQ(report.at("image_made_by").at("method"), "silhouette");
+  EXPECT_EQ(report.at("image_made_by").at("method"), "auto");
   EXPECT_EQ(report.at("reference_made_by").at("options").at("samples"), 16);
 }
 

@@ -208,8 +208,7 @@ TEST_F(OutputsTest, WhatHasNoEffectOrIsEmptyIsSaidInOneLine) {
   ASSERT_EQ(run(drawn({"--output", path("a.exr")})).code, 0);
   for (const auto& [words, said] :
        {Case{{"render", away, "--size", "16x12", "--output", path("a.png")}, "the camera sees no surface"},
-        Case{drawn({"--output", path("a.exr"), "--samples", "64"}),
-             "--samples has no effect: method silhouette"},
+        Case{drawn({"--output", path("a.exr"), "--samples", "64"}), "--samples has no effect: method auto"},
         Case{drawn({"--output", path("a.exr"), "--exposure", "1"}), "--exposure has no effect"},
         Case{drawn({"--output", path("a.exr"), "--warm-up", "1"}), "--warm-up has no effect"},
         Case{{"volumes", scene_, "--form", "cells", "--penumbra", path("p.ply"), "--merge"},
