@@ -82,7 +82,7 @@ struct RenderResult {
   std::vector<std::string> warnings;
 };
 
-/// Adds visibility and region of lights that reach nothing to a picture of the scene that was drawn without them.
+/// Adds visibility and region of lights that reach nothing to a picture of the scene that was drawn without them. `threads`: 0 for all cores. Cost O(pixels) for each.
 void add_dark_channels(const Scene& scene, RenderResult& result, int threads = 0);
 
 /// Draws pictures of a scene that it owns. What has changed since the picture before it finds out itself: the

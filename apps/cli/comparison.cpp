@@ -32,8 +32,9 @@ struct Resampling {
 };
 // Of the worst pixels. The oracle's rays take some ten times as long as Embree's.
 constexpr Resampling kByRays{0.02, 1'000, 65'536}, kByOracle{0.0, 300, 32'768};
-// Errors that are so many times the references' noise are stated as they are: the noise changes them by less than a hundredth.
+// Where p99 is so many times the references' noise it is stated as it is, and only the few worst pixels are sampled again, for the maximum.
 constexpr double kFarAboveNoise = 25.0;
+constexpr std::size_t kFewWorst = 20;
 constexpr int kCertificateSamples = 256;
 // Two references, then the worst pixels again. No seed that a person would give a rendering: against itself a
 // noisy image would look free of error.
@@ -321,13 +322,16 @@ Comparison SceneComparison::State::compare(const Image& image) {
   const std::vector<float>& method = image.at(judged_.channel());
   comparison.samples = options_.samples;
   set_figures(comparison, method, references_, options_.quiet);
-  if (options_.resample && !comparison.penumbra.empty() &&
-      comparison.in_penumbra.p99_absolute <
-          kFarAboveNoise * reference_noise(references_.first, references_.second, comparison.penumbra))
+  if (options_.resample && !comparison.penumbra.empty()) {
+    Resampling resampling = judge_ ? kByOracle : kByRays;
+    if (comparison.in_penumbra.p99_absolute >=
+        kFarAboveNoise * reference_noise(references_.first, references_.second, comparison.penumbra))
+      resampling = {0.0, kFewWorst, resampling.samples};
     resample_worst(
         comparison, method, references_,
-        [this](const auto& pixels, auto... how) { return trace_again(pixels, how...); },
-        judge_ ? kByOracle : kByRays, options_.quiet);
+        [this](const auto& pixels, auto... how) { return trace_again(pixels, how...); }, resampling,
+        options_.quiet);
+  }
   check_certificates(comparison, image);
   const auto now = std::chrono::steady_clock::now();
   comparison.rays = std::exchange(rays_traced_, 0);
