@@ -34,16 +34,12 @@ class DepthComplexityMethod : public Method {
     const detail::SceneEdges& edges = edges_.made(input.rays.arena());
     clock.finish("edge_hierarchy");
     const ReferenceOptions sampling = sampling_of(input.options);
-    MethodResult out = detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
-      DepthComplexityResult seen = depth_complexity_visibility(
+    const auto see = [&](bool horizon, const Progress& progress) {
+      return depth_complexity_visibility(
           scene_, input.rays, edges, input.light, input.receivers,
           {.samples = sampling.samples, .seed = sampling.seed, .horizon = horizon}, progress);
-      MethodResult of_pass;
-      of_pass.visibility = std::move(seen.visibility);
-      of_pass.stages = std::move(seen.stages);
-      of_pass.counts = to_counts(seen.counts);
-      return of_pass;
-    });
+    };
+    MethodResult out = detail::see_with_unoccluded(input, see, to_counts);
     out.setup = clock.stages();
     return out;
   }

@@ -20,4 +20,17 @@ MethodResult see_with_unoccluded(const MethodInput& input, const See& see) {
   return out;
 }
 
+/// The same where `see` gives a method's own result, of visibility, stages and counts. `to_counts` makes its counts Counts.
+template <class See, class ToCounts>
+MethodResult see_with_unoccluded(const MethodInput& input, const See& see, const ToCounts& to_counts) {
+  return see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
+    auto seen = see(horizon, progress);
+    MethodResult out;
+    out.visibility = std::move(seen.visibility);
+    out.stages = std::move(seen.stages);
+    out.counts = to_counts(seen.counts);
+    return out;
+  });
+}
+
 }  // namespace penumbra::detail

@@ -20,17 +20,13 @@ class ShadowVolumesMethod : public Method {
 
   MethodResult run(const MethodInput& input) override {
     const auto is_on = [&](const char* option) { return word_of(input.options, option) == "on"; };
-    return detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
-      ShadowVolumeResult seen = shadow_volumes(
+    const auto see = [&](bool horizon, const Progress& progress) {
+      return shadow_volumes(
           scene_, input.light, input.receivers,
           {.cull = is_on("volume-culling"), .clamp = is_on("volume-clamping"), .horizon = horizon},
           input.rays.arena(), progress);
-      MethodResult out;
-      out.visibility = std::move(seen.visibility);
-      out.stages = std::move(seen.stages);
-      out.counts = to_counts(seen.counts);
-      return out;
-    });
+    };
+    return detail::see_with_unoccluded(input, see, to_counts);
   }
 
  private:

@@ -31,16 +31,11 @@ class SoftShadowVolumesMethod : public Method {
     const detail::SceneEdges& edges = edges_.made(input.rays.arena());
     clock.finish("edge_hierarchy");
     const auto splits = static_cast<int>(integer_of(input.options, "light-splits"));
-    MethodResult out = detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
-      SoftShadowVolumeResult seen =
-          soft_shadow_volumes(scene_, input.rays, edges, input.light, input.receivers,
-                              {.splits = splits, .horizon = horizon}, progress);
-      MethodResult of_pass;
-      of_pass.visibility = std::move(seen.visibility);
-      of_pass.stages = std::move(seen.stages);
-      of_pass.counts = to_counts(seen.counts);
-      return of_pass;
-    });
+    const auto see = [&](bool horizon, const Progress& progress) {
+      return soft_shadow_volumes(scene_, input.rays, edges, input.light, input.receivers,
+                                 {.splits = splits, .horizon = horizon}, progress);
+    };
+    MethodResult out = detail::see_with_unoccluded(input, see, to_counts);
     out.setup = clock.stages();
     return out;
   }

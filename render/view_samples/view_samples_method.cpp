@@ -25,17 +25,12 @@ class ViewSamplesMethod : public Method {
   MethodResult run(const MethodInput& input) override {
     if (is_point(input.light)) return hard_shadow(input);
     const ReferenceOptions sampling = sampling_of(input.options);
-    return detail::see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {
-      ViewSampleResult seen =
-          view_sample_visibility(scene_, input.light, input.receivers,
-                                 {.samples = sampling.samples, .seed = sampling.seed, .horizon = horizon},
-                                 input.rays.arena(), progress);
-      MethodResult out;
-      out.visibility = std::move(seen.visibility);
-      out.stages = std::move(seen.stages);
-      out.counts = to_counts(seen.counts);
-      return out;
-    });
+    const auto see = [&](bool horizon, const Progress& progress) {
+      return view_sample_visibility(scene_, input.light, input.receivers,
+                                    {.samples = sampling.samples, .seed = sampling.seed, .horizon = horizon},
+                                    input.rays.arena(), progress);
+    };
+    return detail::see_with_unoccluded(input, see, to_counts);
   }
 
  private:

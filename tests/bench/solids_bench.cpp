@@ -7,6 +7,7 @@
 #include "apps/common/scene_volumes.h"
 #include "penumbra/volumes/checks/validate.h"
 #include "tests/bench/bench_support.h"
+#include "tests/render/oracle_support.h"
 #include "tests/render/solids/solid_judge.h"
 
 namespace penumbra::bench {
@@ -23,17 +24,11 @@ struct Subject {
   explicit Subject(const std::string& name) {
     const std::filesystem::path data(PENUMBRA_DATA);
     scene = name.ends_with(".ply") ? load_scene(data / "meshes" / name).scene : bench_scene(name);
+    meshes = testing::casting_meshes(scene);
     for (const SceneObject& object : scene.objects)
-      if (object.casts) {
-        objects.push_back(object);
-        meshes.push_back(object.mesh);
-      }
+      if (object.casts) objects.push_back(object);
   }
-  oracle::Light light() const {
-    const LightShape& shape = shape_of(scene);
-    if (const auto* distant = std::get_if<DistantLight>(&shape)) return *distant;
-    return std::get<DiskLight>(shape);
-  }
+  oracle::Light light() const { return testing::oracle_light(shape_of(scene)); }
 
   Scene scene;
   std::vector<SceneObject> objects;

@@ -4,6 +4,8 @@
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 
+#include <memory>
+
 namespace penumbra::apps {
 namespace {
 
@@ -19,20 +21,28 @@ void send(int to, int tag, const char* bytes, std::size_t size) {
   MPI_Send(bytes, static_cast<int>(size), MPI_BYTE, to, tag, MPI_COMM_WORLD);
 }
 
-bool probe(int* from, int* tag, std::size_t* size) {
+bool probe(int from, int* tag, std::size_t* size) {
   int come = 0, count = 0;
   MPI_Status status;
-  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &come, &status);
+  MPI_Iprobe(from, MPI_ANY_TAG, MPI_COMM_WORLD, &come, &status);
   if (!come) return false;
   MPI_Get_count(&status, MPI_BYTE, &count);
-  *from = status.MPI_SOURCE;
   *tag = status.MPI_TAG;
   *size = static_cast<std::size_t>(count);
   return true;
 }
 
-void receive(int from, int tag, char* bytes, std::size_t size) {
-  MPI_Recv(bytes, static_cast<int>(size), MPI_BYTE, from, tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+void* receive(int from, int tag, char* bytes, std::size_t size) {
+  auto receipt = std::make_unique<MPI_Request>();
+  MPI_Irecv(bytes, static_cast<int>(size), MPI_BYTE, from, tag, MPI_COMM_WORLD, receipt.get());
+  return receipt.release();
+}
+
+bool received(void* receipt) {
+  int done = 0;
+  MPI_Test(static_cast<MPI_Request*>(receipt), &done, MPI_STATUS_IGNORE);
+  if (done) delete static_cast<MPI_Request*>(receipt);
+  return done;
 }
 
 void finish() {
@@ -46,7 +56,7 @@ void abort() {
 }  // namespace
 
 const MpiLibrary* penumbra_mpi_library() {
-  static constexpr MpiLibrary kLibrary{start, send, probe, receive, finish, abort};
+  static constexpr MpiLibrary kLibrary{start, send, probe, receive, received, finish, abort};
   return &kLibrary;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include "apps/cli/ranks/mpi_library.h"
 #include "penumbra/mesh/error.h"
@@ -57,14 +58,26 @@ void Ranks::send(int to, int tag, const std::string& bytes) {
   library_.send(to, tag, bytes.data(), bytes.size());
 }
 
+bool Ranks::receive(Receiving& next, int from) {
+  std::size_t size = 0;
+  if (!next.receipt) {
+    if (!library_.probe(from, &next.message.tag, &size)) return false;
+    next.message.from = from;
+    next.message.bytes.resize(size);
+    next.receipt = library_.receive(from, next.message.tag, next.message.bytes.data(), size);
+  }
+  if (!library_.received(next.receipt)) return false;
+  next.receipt = nullptr;
+  return true;
+}
+
 std::optional<RankMessage> Ranks::poll() {
   const std::lock_guard lock(mutex_);
-  RankMessage message;
-  std::size_t size = 0;
-  if (!library_.probe(&message.from, &message.tag, &size)) return std::nullopt;
-  message.bytes.resize(size);
-  library_.receive(message.from, message.tag, message.bytes.data(), size);
-  return message;
+  for (int from = 0; from < size_; ++from) {
+    Receiving& next = receiving_[static_cast<std::size_t>(from)];
+    if (receive(next, from)) return std::exchange(next.message, {});
+  }
+  return std::nullopt;
 }
 
 }  // namespace penumbra::apps

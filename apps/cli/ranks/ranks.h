@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace penumbra::apps {
 
@@ -30,7 +31,7 @@ class Ranks {
   int rank() const { return rank_; }
   int size() const { return size_; }
   void send(int to, int tag, const std::string& bytes = {});
-  /// A message that has come; nothing where none has.
+  /// A message that has come, whole; nothing where none has. It never waits for a rank, which may be killed while it sends.
   std::optional<RankMessage> poll();
   /// Ends all processes, with exit code 1.
   [[noreturn]] void abort();
@@ -38,10 +39,20 @@ class Ranks {
   void abandon() { abandoned_ = true; }
 
  private:
-  Ranks(const MpiLibrary& library, int rank, int size) : library_(library), rank_(rank), size_(size) {}
+  Ranks(const MpiLibrary& library, int rank, int size)
+      : library_(library), rank_(rank), size_(size), receiving_(static_cast<std::size_t>(size)) {}
 
   const MpiLibrary& library_;
   const int rank_, size_;
+  struct Receiving {
+    RankMessage message;
+    void* receipt = nullptr;  // MPI's, while bytes are on their way into the message
+  };
+
+  /// Whether the next message of this rank is there, whole.
+  bool receive(Receiving& next, int from);
+
+  std::vector<Receiving> receiving_;  // by rank
   bool abandoned_ = false;
   std::mutex mutex_;
 };

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 constexpr std::chrono::milliseconds kPause = 5ms, kBetweenSigns = 1s, kGone = 15s, kLater = 200ms;
 
-enum Tag : int { kAsk = 1, kResult, kAlive, kUnit, kWait, kStop };
+enum Tag : int { kAsk = 1, kResult, kAlive, kUnit, kWait, kStop, kLeave };
 
 /// What rank 0's two threads share: the one that works, and the one that answers.
 class Leader {
@@ -53,7 +53,10 @@ class Leader {
 
  private:
   void answer(const RankMessage& message) {
-    if (!last_sign_.contains(message.from)) return;  // it was taken for gone
+    if (!last_sign_.contains(message.from)) {  // it was taken for gone
+      if (message.tag == kAsk) ranks_.send(message.from, kLeave);
+      return;
+    }
     last_sign_[message.from] = Clock::now();
     if (message.tag == kResult) {
       const std::lock_guard lock(mutex_);
@@ -144,6 +147,7 @@ void follow(Ranks& ranks, const DoUnit& work) {
       ranks.send(0, kAsk);
       const RankMessage message = wait_for_message(ranks);
       if (message.tag == kStop) return;
+      if (message.tag == kLeave) return ranks.abandon();
       if (message.tag == kUnit)
         ranks.send(0, kResult, work(message.bytes));
       else

@@ -12,7 +12,7 @@
 
 #include "penumbra/render/bake/atlas_mesh.h"
 #include "penumbra/render/bake/lightmap.h"
-#include "tests/oracle/oracle.h"
+#include "tests/render/oracle_support.h"
 
 namespace penumbra::test {
 
@@ -79,16 +79,6 @@ inline std::vector<TexturedFace> read_textured_faces(const std::string& path, in
     }
   }
   return faces;
-}
-
-inline oracle::Light oracle_light(const LightShape& shape) {
-  if (const auto* disk = std::get_if<DiskLight>(&shape)) return *disk;
-  if (const auto* distant = std::get_if<DistantLight>(&shape)) return *distant;
-  // Axis by axis: the room's panel.
-  const auto& r = std::get<RectangleLight>(shape);
-  const Vec3 n = r.normal, t = r.tangent;
-  const Vec3 across(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x);
-  return oracle::Rectangle{r.center, r.half_extents.x * t, r.half_extents.y * across};
 }
 
 /// Squares of errors, added up.

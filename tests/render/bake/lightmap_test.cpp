@@ -33,7 +33,7 @@ class Room {
   double truth(const TexturedFace& face, std::size_t light, const Vec3& point, std::uint64_t seed,
                int rays = kRays) const {
     return oracle_->visibility(point, face.normal(), oracle::CasterFace{face.object, FaceId{face.face}},
-                               test::oracle_light(scene.lights[light].shape), rays, seed);
+                               testing::oracle_light(scene.lights[light].shape), rays, seed);
   }
 
   Scene scene = load_scene(PENUMBRA_DATA "/bake/room.json").scene;
@@ -180,7 +180,7 @@ struct DividedFloor {
     Seam out;
     for (int i = 0; i < 80; ++i) {
       const Vec3 p(kSeam, 0, -1.98 + 0.05 * i);
-      const double truth = oracle.visibility(p, {0, 1, 0}, {}, test::oracle_light(kDisk[0].shape), 1024,
+      const double truth = oracle.visibility(p, {0, 1, 0}, {}, testing::oracle_light(kDisk[0].shape), 1024,
                                              static_cast<std::uint64_t>(i));
       const double a = map.look_up(0, left(p)), b = map.look_up(0, right(p));
       out.from_truth.add(a - truth);

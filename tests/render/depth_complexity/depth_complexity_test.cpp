@@ -6,7 +6,7 @@
 #include <map>
 
 #include "render/receivers/sample_key.h"
-#include "tests/oracle/oracle.h"
+#include "tests/render/oracle_support.h"
 #include "tests/render/sample_support.h"
 
 namespace penumbra {
@@ -74,17 +74,13 @@ TEST(DepthComplexity, IsTheReferenceForTrianglesThatAreNoSurface) {
   expect_ties_only(off, "soup");
 }
 
-oracle::Light light_for_oracle(const LightShape& light) {
-  if (const auto* disk = std::get_if<DiskLight>(&light)) return *disk;
-  return std::get<DistantLight>(light);
-}
-
 // Rays in double that share no code with the method or with the reference's rays, to the same points of the light.
 TEST(DepthComplexity, CountsTheSamplesThatExactRaysReach) {
   constexpr int kSamples = 64;
   for (const char* name : {"cube-medium", "torus-medium", "boxes-large", "foliage-medium", "bunny-large"}) {
     const Scene scene = testing::data_scene(name);
     const LightShape& light = scene.lights.front().shape;
+    const oracle::Light given = testing::oracle_light(light);
     const SurfaceBuffer surface = surface_of(scene);
     const Receivers receivers = surface.receivers();
     const Values visible = visibility(Casters(scene.objects), light, receivers,
@@ -107,7 +103,7 @@ TEST(DepthComplexity, CountsTheSamplesThatExactRaysReach) {
       int free = 0;
       for (const Vec3& q : testing::samples_of(light, detail::sample_key_of(receivers, i, 1), kSamples))
         free += glm::dot(surface.normal[i], q - surface.position[i]) > 0.0 &&
-                !judge.blocked(surface.position[i], q, own, light_for_oracle(light));
+                !judge.blocked(surface.position[i], q, own, given);
       ++looked_at;
       const int off = std::abs(static_cast<int>(std::lround(visible[i] * kSamples)) - free);
       if (off == 0) continue;

@@ -14,7 +14,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/visibility.h"
-#include "tests/oracle/oracle.h"
+#include "tests/render/oracle_support.h"
 
 namespace {
 
@@ -52,16 +52,12 @@ void time_calls(const Scene& scene, const std::vector<Vec3>& points, int calls,
 }
 
 void judge(const Scene& scene, const std::vector<Vec3>& points, int rays, const std::string& out) {
-  const LightShape& light = scene.lights.at(0).shape;
-  const auto* distant = std::get_if<DistantLight>(&light);
-  const oracle::Light seen = distant ? oracle::Light(*distant) : require_disk(light, "judging points");
-  std::vector<TriangleMesh> casters;
-  for (const SceneObject& object : scene.objects)
-    if (object.casts) casters.push_back(object.mesh);
+  const oracle::Light light = testing::oracle_light(scene.lights.at(0).shape);
+  const std::vector<TriangleMesh> casters = testing::casting_meshes(scene);
   const oracle::Oracle oracle(casters);
   std::vector<float> values(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    values[i] = static_cast<float>(oracle.unoccluded(points[i], {}, seen, rays, i));
+    values[i] = static_cast<float>(oracle.unoccluded(points[i], {}, light, rays, i));
   });
   write_values(out, values);
 }

@@ -15,7 +15,7 @@
 
 #include "penumbra/mesh/error.h"
 #include "penumbra/render/scene/scene.h"
-#include "tests/oracle/oracle.h"
+#include "tests/render/oracle_support.h"
 
 namespace {
 
@@ -37,18 +37,14 @@ std::vector<Claim> read_claims() {
 
 int judge(const std::string& scene_path, int samples) {
   const Scene scene = load_scene(scene_path).scene;
-  const LightShape& light = scene.lights.at(0).shape;
-  const auto* distant = std::get_if<DistantLight>(&light);
-  const oracle::Light seen = distant ? oracle::Light(*distant) : require_disk(light, "judging points");
-  std::vector<TriangleMesh> casters;
-  for (const SceneObject& object : scene.objects)
-    if (object.casts) casters.push_back(object.mesh);
+  const oracle::Light light = testing::oracle_light(scene.lights.at(0).shape);
+  const std::vector<TriangleMesh> casters = testing::casting_meshes(scene);
   const oracle::Oracle oracle(casters);
   const std::vector<Claim> claims = read_claims();
   std::vector<double> errors(claims.size());
   tbb::parallel_for(std::size_t{0}, claims.size(), [&](std::size_t i) {
     const auto error = [&](int rays) {
-      return std::abs(oracle.unoccluded(claims[i].point, {}, seen, rays, i) - claims[i].seen);
+      return std::abs(oracle.unoccluded(claims[i].point, {}, light, rays, i) - claims[i].seen);
     };
     errors[i] = error(samples);
     if (errors[i] > kAgain) errors[i] = error(16 * samples);
