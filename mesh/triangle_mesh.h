@@ -6,11 +6,11 @@
 // Connectivity is held in OpenMesh (Botsch et al., "OpenMesh: a generic and efficient polygon mesh data
 // structure", 2002). OpenMesh accepts neither three faces at an edge nor two that run along it in the same
 // direction. No face is lost for that. Where more than two faces meet at an edge they are joined in pairs, so
-// that closed surfaces that touch along edges stay closed; what has no partner is cut, and vertices are copied,
-// once for each fan of faces around them (the rule is in mesh/topology/manifold_pieces.h). So such an edge becomes several
-// edges at the same place. Boundary edges belong to every silhouette band, which is what shadows ask of cut edges.
-// A closed surface with a fin stays closed, and so do voxels that touch along an edge. But for the numbering, the
-// result does not depend on the order of the faces.
+// that closed surfaces that touch along edges stay closed; what has no partner is cut, and vertices are
+// copied, once for each fan of faces around them (the rule is in mesh/topology/manifold_pieces.h). So such an
+// edge becomes several edges at the same place. Boundary edges belong to every silhouette band, which is what
+// shadows ask of cut edges. A closed surface with a fin stays closed, and so do voxels that touch along an
+// edge. But for the numbering, the result does not depend on the order of the faces.
 //
 // Numbering: vertices keep the order of the input, and copies follow. Faces keep the order of the input.
 // Edges are numbered as the faces first name them, components by their lowest face.
@@ -75,8 +75,8 @@ struct BuildReport {
 struct BuildOptions {
   /// Merge vertices of exactly equal position (+0 equals -0).
   bool weld = true;
-  /// Turn closed components of negative signed volume outward, but not those that bound a cavity of another one
-  /// (mesh/topology/cavities.h).
+  /// Turn closed components of negative signed volume outward, but not those that bound a cavity of another
+  /// one (mesh/topology/cavities.h).
   bool flip_inside_out = true;
 };
 

@@ -1,5 +1,5 @@
-// What a camera sees of objects that stay as they are, kept from picture to picture: while the camera and the size stay, no
-// ray is sent again, whatever the lights do.
+// What a camera sees of objects that stay as they are, kept from picture to picture: while the camera and the
+// size stay, no ray is sent again, whatever the lights do.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,11 @@ namespace penumbra::detail {
 /// Not for several threads at once.
 class CameraViews {
  public:
-  /// The surface buffer through that point of each pixel: the one of an earlier call where the scene's camera, the size and
-  /// the point are the same, bit for bit what make_surface_buffer gives. The objects must be those of the first call. With another
-  /// camera or size all that was kept is dropped. The first of a camera stays until then, and others as far as 256 MiB reach; what
-  /// is not kept stays until the next call. Throws what make_surface_buffer does.
+  /// The surface buffer through that point of each pixel: the one of an earlier call where the scene's
+  /// camera, the size and the point are the same, bit for bit what make_surface_buffer gives. The objects
+  /// must be those of the first call. With another camera or size all that was kept is dropped. The first of
+  /// a camera stays until then, and others as far as 256 MiB reach; what is not kept stays until the next
+  /// call. Throws what make_surface_buffer does.
   const SurfaceBuffer& see(const Scene& scene, const RayScene& rays, int width, int height,
                            const PointInPixel& at = {}, const Progress& progress = {});
   /// The last buffer of pixels' centers; null where there is none.

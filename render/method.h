@@ -1,8 +1,8 @@
 // Methods: every way to find what receivers see of a light, each behind one registration.
 //
-// A method is its code, a description (MethodInfo) and what makes it. The command line, the viewer and --stats go
-// over methods(), so that none of them has to be changed for a new one. Add one by register_method, from inside
-// the library or from outside.
+// A method is its code, a description (MethodInfo) and what makes it. The command line, the viewer and
+// --stats go over methods(), so that none of them has to be changed for a new one. Add one by
+// register_method, from inside the library or from outside.
 #pragma once
 
 #include <cstdint>
@@ -44,13 +44,14 @@ struct MethodInput {
   /// MethodResult::textures is wanted.
   bool keep_textures = false;
   const Progress& progress;
-  /// The receivers in groups (internal header render/receivers/receiver_box.h), where the caller has made them already.
+  /// The receivers in groups (internal header render/receivers/receiver_box.h), where the caller has made
+  /// them already.
   const detail::BoxedGroups* groups = nullptr;
 };
 
 struct MethodResult {
-  /// No receiver sees any of the light, which a plan has found out without a look at each. What there is one a receiver of may
-  /// then be empty. Only by the methods `auto` and `plan`.
+  /// No receiver sees any of the light, which a plan has found out without a look at each. What there is one
+  /// a receiver of may then be empty. Only by the methods `auto` and `plan`.
   bool is_dark = false;
   /// V, one a receiver: the fraction of the light's area that is unblocked and above the receiver's horizon.
   /// 1 where there is no receiver, 0 behind the light's plane.
@@ -73,13 +74,14 @@ struct MethodResult {
   std::vector<TexturePicture> textures;
 };
 
-/// One way to find visibility, kept from call to call so that what does not change is not made again. What has
-/// changed it finds out itself: by the light's numbers and by Receivers::revision. The objects are those that
-/// it was made with; so are those of the rays, which may be others each time.
+/// One way to find visibility, kept from call to call so that what does not change is not made again. What
+/// has changed it finds out itself: by the light's numbers and by Receivers::revision. The objects are those
+/// that it was made with; so are those of the rays, which may be others each time.
 class Method {
  public:
   virtual ~Method() = default;
-  /// Throws UsageError where the light or the receivers are of a kind that the method does not take, Cancelled.
+  /// Throws UsageError where the light or the receivers are of a kind that the method does not take,
+  /// Cancelled.
   virtual MethodResult run(const MethodInput& input) = 0;
   /// The next call finds everything anew but for one-time set-up, though nothing has changed: for timing.
   virtual void forget() {}
@@ -103,15 +105,15 @@ struct MethodInfo {
   /// Gives independent samples by the options samples and seed, whose mean over seeds converges to V.
   bool converges = false;
   std::vector<OptionSchema> options;
-  /// Makes the method for a scene's objects, which stay as they are for as long as the method lives. Lights and
-  /// camera are left out.
+  /// Makes the method for a scene's objects, which stay as they are for as long as the method lives. Lights
+  /// and camera are left out.
   std::function<std::unique_ptr<Method>(const Scene& objects)> make;
 };
 
-/// Adds a method to methods(). Not while another thread uses them: do it at the start of the program, and so call
-/// register_drawing_methods() (renderer.h). Throws UsageError where the name is empty or taken, where an option's
-/// default is outside of its domain, where an option's name stands for something else in another method, or where
-/// `converges` is set without options samples and seed.
+/// Adds a method to methods(). Not while another thread uses them: do it at the start of the program, and so
+/// call register_drawing_methods() (renderer.h). Throws UsageError where the name is empty or taken, where an
+/// option's default is outside of its domain, where an option's name stands for something else in another
+/// method, or where `converges` is set without options samples and seed.
 void register_method(MethodInfo info);
 
 /// All methods in the order of registration; those of penumbra::visibility first. References stay valid.
@@ -120,13 +122,15 @@ const std::deque<MethodInfo>& methods();
 /// Throws UsageError that lists the names.
 const MethodInfo& method_named(std::string_view name);
 
-/// The method where the library is not told another one, and that others are compared with: its areas are exact.
+/// The method where the library is not told another one, and that others are compared with: its areas are
+/// exact.
 inline constexpr const char* kDefaultMethod = "silhouette";
 
 /// Throws UsageError that names the method where it does not take this light.
 void require_taken(const MethodInfo& method, const LightShape& light);
 
-/// Throws UsageError that names the method where it does not take this light, these receivers, or a request for O.
+/// Throws UsageError that names the method where it does not take this light, these receivers, or a request
+/// for O.
 void require_taken(const MethodInfo& method, const LightShape& light, const Receivers& receivers,
                    bool with_unoccluded = false);
 

@@ -51,8 +51,8 @@ struct OptionSchema {
   std::string help;
   /// A value that costs less, for a picture while something moves; of a number: the most that it may then be.
   std::optional<OptionValue> draft{};
-  /// Values worth comparing, from the cheapest on (penumbra study). Not set: chosen by the domain. Empty: the option changes
-  /// neither time nor accuracy by intent.
+  /// Values worth comparing, from the cheapest on (penumbra study). Not set: chosen by the domain. Empty: the
+  /// option changes neither time nor accuracy by intent.
   std::optional<std::vector<OptionValue>> steps{};
 
   /// "4 to 1024 rows", "4, 8, 12 or 16", "auto, orthographic or a number above 0".

@@ -29,15 +29,17 @@ struct RenderOptions {
   OptionValues options{};
   /// Pixels, 1 to 65,536 a side.
   int width = 640, height = 480;
-  /// R G B A are means over this many samples along each side of a pixel, 1 to kMostAntialias: surface, visibility and
-  /// shading at the centers of as many squares. All other channels are those of the pixel's center, bit for bit what they
-  /// are without. Costs as many frames as a pixel has samples, one more where the number is even, and the memory
-  /// of one more frame and 32 bytes a pixel. Methods that converge take another seed for each.
+  /// R G B A are means over this many samples along each side of a pixel, 1 to kMostAntialias: surface,
+  /// visibility and shading at the centers of as many squares. All other channels are those of the pixel's
+  /// center, bit for bit what they are without. Costs as many frames as a pixel has samples, one more where
+  /// the number is even, and the memory of one more frame and 32 bytes a pixel. Methods that converge take
+  /// another seed for each.
   int antialias = 1;
   /// MethodFrame::textures is wanted.
   bool keep_textures = false;
-  /// Of lights that reach nothing (MethodFrame::is_dark) there are neither visibility and region nor channels of the picture;
-  /// add_dark_channels() adds the latter. To fill them for a hundred such lights takes longer than the frame of three that shine.
+  /// Of lights that reach nothing (MethodFrame::is_dark) there are neither visibility and region nor channels
+  /// of the picture; add_dark_channels() adds the latter. To fill them for a hundred such lights takes longer
+  /// than the frame of three that shine.
   bool leave_out_dark = false;
   /// Asked between stages and in the long ones.
   Progress progress{};
@@ -71,7 +73,8 @@ struct RenderResult {
   StageTimes stages;
   /// In each pixel, as RenderOptions::antialias.
   int antialias = 1;
-  /// All stages that a new frame needs, all samples of a pixel among them: no one-time set-up, no file output.
+  /// All stages that a new frame needs, all samples of a pixel among them: no one-time set-up, no file
+  /// output.
   double frame_ms = 0.0;
   /// One-time set-up so far.
   StageTimes setup;
@@ -82,19 +85,21 @@ struct RenderResult {
   std::vector<std::string> warnings;
 };
 
-/// Adds visibility and region of lights that reach nothing to a picture of the scene that was drawn without them. `threads`: 0 for all cores. Cost O(pixels) for each.
+/// Adds visibility and region of lights that reach nothing to a picture of the scene that was drawn without
+/// them. `threads`: 0 for all cores. Cost O(pixels) for each.
 void add_dark_channels(const Scene& scene, RenderResult& result, int threads = 0);
 
 /// Draws pictures of a scene that it owns. What has changed since the picture before it finds out itself: the
-/// camera, a light, the size, the method. What has not is kept (what the camera sees, groups of receivers, classes and
-/// silhouettes, hierarchies, OpenGL contexts) and takes no time again: docs/performance.md, "Between frames".
+/// camera, a light, the size, the method. What has not is kept (what the camera sees, groups of receivers,
+/// classes and silhouettes, hierarchies, OpenGL contexts) and takes no time again: docs/performance.md,
+/// "Between frames".
 ///
 /// To be used by one thread at a time, and destroyed by the thread that drew (OpenGL contexts are that
 /// thread's).
 class Renderer {
  public:
-  /// `threads`: 0 means all cores. Copies of meshes are shared, not made. Throws UsageError for a scene without
-  /// lights, or with several of which two have one name or one has none.
+  /// `threads`: 0 means all cores. Copies of meshes are shared, not made. Throws UsageError for a scene
+  /// without lights, or with several of which two have one name or one has none.
   explicit Renderer(Scene scene, int threads = 0);
   ~Renderer();
 
@@ -103,16 +108,17 @@ class Renderer {
   /// Throws UsageError for an index that no light has. The light keeps its name.
   void set_light(std::size_t index, const Light& light);
 
-  /// Throws UsageError for an unknown method, options outside their domain, a light that is not valid or that the
-  /// method does not take, a side outside 1 to 65,536, an antialias outside 1 to kMostAntialias; SceneError where something is too far from the casters
-  /// (docs/scene-file.md); SystemError where OpenGL does not start; Cancelled.
+  /// Throws UsageError for an unknown method, options outside their domain, a light that is not valid or that
+  /// the method does not take, a side outside 1 to 65,536, an antialias outside 1 to kMostAntialias;
+  /// SceneError where something is too far from the casters (docs/scene-file.md); SystemError where OpenGL
+  /// does not start; Cancelled.
   RenderResult render(const RenderOptions& options);
-  /// The same into the result of an earlier call, whose memory is used again: taking new memory costs a good part of a
-  /// simple frame. `out` is as that call left it, or new: what it holds of the surface is not written
-  /// again where it is the same. After an exception it is fit for another call and for nothing else.
+  /// The same into the result of an earlier call, whose memory is used again: taking new memory costs a good
+  /// part of a simple frame. `out` is as that call left it, or new: what it holds of the surface is not
+  /// written again where it is the same. After an exception it is fit for another call and for nothing else.
   void render(const RenderOptions& options, RenderResult& out);
-  /// What the method `auto` would do for each light of a picture of that size, in their order; nothing is drawn. Throws what
-  /// render() does for options, lights and places.
+  /// What the method `auto` would do for each light of a picture of that size, in their order; nothing is
+  /// drawn. Throws what render() does for options, lights and places.
   std::vector<LightPlan> plan(const PlanRequest& request, int width, int height);
   /// The next picture finds everything anew but for one-time set-up, though nothing has changed: for timing.
   void forget();

@@ -42,22 +42,22 @@ struct VisibilityOptions {
   std::string method = kDefaultMethod;
   /// Of the method; those of other methods have no effect.
   OptionValues options{};
-  /// MethodResult::unoccluded is wanted as well as visibility. Of receivers without normals both are equal, by
-  /// any method; with normals only some methods give it (MethodInfo::gives_unoccluded).
+  /// MethodResult::unoccluded is wanted as well as visibility. Of receivers without normals both are equal,
+  /// by any method; with normals only some methods give it (MethodInfo::gives_unoccluded).
   bool with_unoccluded = false;
   Progress progress{};
 };
 
 /// Receivers may come in any order: they are sorted for coherence inside, and answered in theirs. Calls with
-/// the same casters wait for each other. Methods that need OpenGL are to be called, and their casters destroyed,
-/// by one thread: contexts are that thread's. Cost: see each method. Throws UsageError for an unknown method,
-/// options outside their domain, a light or receivers that the method does not take, arrays of different
-/// lengths, numbers that are not finite; Cancelled.
+/// the same casters wait for each other. Methods that need OpenGL are to be called, and their casters
+/// destroyed, by one thread: contexts are that thread's. Cost: see each method. Throws UsageError for an
+/// unknown method, options outside their domain, a light or receivers that the method does not take, arrays
+/// of different lengths, numbers that are not finite; Cancelled.
 MethodResult visibility(const Casters& casters, const LightShape& light, const Receivers& receivers,
                         const VisibilityOptions& options = {});
 
-/// Under several lights, one result for each in their order. What does not depend on the light is made once. The results hold
-/// lights · receivers numbers.
+/// Under several lights, one result for each in their order. What does not depend on the light is made once.
+/// The results hold lights · receivers numbers.
 std::vector<MethodResult> visibility(const Casters& casters, std::span<const LightShape> lights,
                                      const Receivers& receivers, const VisibilityOptions& options = {});
 

@@ -1,8 +1,8 @@
 // Classify: which faces look at the whole light, at none of it, or at a part of it.
 //
-// In: a mesh and a light, a disk or a distant one. Out: a class per face. "Umbra and penumbra volumes" (2004), section 2.1, with eq. 1
-// corrected: its vector has the wrong sign and length. Here the class is a polynomial's sign, see
-// predicates.h.
+// In: a mesh and a light, a disk or a distant one. Out: a class per face. "Umbra and penumbra volumes"
+// (2004), section 2.1, with eq. 1 corrected: its vector has the wrong sign and length. Here the class is a
+// polynomial's sign, see predicates.h.
 #pragma once
 
 #include <vector>

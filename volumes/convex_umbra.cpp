@@ -83,10 +83,10 @@ class UmbraOfBody {
   }
 
   /// A face that looks away has its third vertex on the disk's side of kFirst along its own direction of the
-  /// edge (predicates.h). A convex body is on one side with it. Its third point lies on the way to the contact, as
-  /// far from the edge as the edge is from the origin or further, so that rounding turns the plane by some 2^-53.
-  /// Where rounding takes that point onto the edge's line, the plane of the face that looks away is taken: it is
-  /// the limit, and takes away too much rather than too little.
+  /// edge (predicates.h). A convex body is on one side with it. Its third point lies on the way to the
+  /// contact, as far from the edge as the edge is from the origin or further, so that rounding turns the
+  /// plane by some 2^-53. Where rounding takes that point onto the edge's line, the plane of the face that
+  /// looks away is taken: it is the limit, and takes away too much rather than too little.
   HalfSpace tangent_half_space(const Edge& edge, const std::array<Vec3, 4>& inside) const {
     const bool left_away = looks_away(edge.left);
     const Vec3 &from = mesh_.position(edge.from), &to = mesh_.position(edge.to);

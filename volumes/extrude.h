@@ -1,6 +1,7 @@
 // Extrude: sheets and the penumbra volume. (The umbra volume is in convex_umbra.h.)
 //
-// Rounding is in proportion to the caster's coordinates and to how far the volume reaches, not to the light's distance.
+// Rounding is in proportion to the caster's coordinates and to how far the volume reaches, not to the light's
+// distance.
 //
 // Two products, since they serve different ends:
 //  - Sheets are facets and cone patches where a tangent plane supports the caster locally. They are for
@@ -31,9 +32,9 @@ struct ExtrudeOptions {
   int cone_segments = 16;
   /// One penumbra cell for each convex component. False: convex components are treated as all others.
   bool split_convex = true;
-  /// Leave out penumbra cells of faces that look away from the whole light, in closed outward components in front
-  /// of the light, where that is proved to change nothing. Faces that meet others, and those in front of which the
-  /// component winds a negative number of times, keep their cells. False: every face gets one.
+  /// Leave out penumbra cells of faces that look away from the whole light, in closed outward components in
+  /// front of the light, where that is proved to change nothing. Faces that meet others, and those in front
+  /// of which the component winds a negative number of times, keep their cells. False: every face gets one.
   bool assume_solid = true;
   /// With `assume_solid`: one penumbra cell for each patch of faces whose hull is proved to lie in the solid.
   /// False: one for each face. Both volumes contain the same points, but for the polygon around the disk.
@@ -62,8 +63,8 @@ ShadowMesh extrude_sheets(const TriangleMesh& mesh, const CircularLight& light,
 
 /// A volume that contains every point in front of the light's plane, within the bound, at which the caster
 /// blocks some of the disk's area. It also contains the caster's own body. What lies in the light's plane or
-/// behind it blocks nothing: a lamp may be part of its ceiling. Everything is in front of a distant light. The
-/// guarantee is kContains.
+/// behind it blocks nothing: a lamp may be part of its ceiling. Everything is in front of a distant light.
+/// The guarantee is kContains.
 ///
 /// The volume is a sum of convex cells. Each is everything that one convex body K can keep from some of P, a
 /// polygon circumscribed to the disk (volumes/cells/penumbra_cell.h). K is

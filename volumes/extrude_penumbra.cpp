@@ -125,11 +125,12 @@ class PenumbraExtruder {
   }
 
   /// A solid in front of the light needs no cells for faces that look away from the whole disk, but for those
-  /// of inverted folds. Proof: let x be shaded from p, a point of the disk, which is outside the solid. On the
-  /// way from x to p the winding number of the surface changes somewhere, and in the end it is 0. If it falls
-  /// somewhere, the path leaves there through a face that looks at p. That is so from a point x inside the
-  /// solid, too, so the cells hold the solid itself. If it only rises, it is negative at first, and the face
-  /// where it rises to 0 has a negative winding number in front of it: that face belongs to a fold and has a cell.
+  /// of inverted folds. Proof: let x be shaded from p, a point of the disk, which is outside the solid. On
+  /// the way from x to p the winding number of the surface changes somewhere, and in the end it is 0. If it
+  /// falls somewhere, the path leaves there through a face that looks at p. That is so from a point x inside
+  /// the solid, too, so the cells hold the solid itself. If it only rises, it is negative at first, and the
+  /// face where it rises to 0 has a negative winding number in front of it: that face belongs to a fold and
+  /// has a cell.
   bool casts(FaceId f, bool solid) const {
     if (solid && classes_.faces[index(f)] == FaceClass::kNoneFront) return false;
     const IndexedTriangle& t = triangle(f);

@@ -114,9 +114,9 @@ class SheetExtruder {
     return near_[vertex];
   }
 
-  /// On the ray from the point center + q of the light's plane through the vertex, at the far plane, or beyond
-  /// the vertex by the caster's size where that is further; for rays that graze the light's plane, at least outside
-  /// of the bound.
+  /// On the ray from the point center + q of the light's plane through the vertex, at the far plane, or
+  /// beyond the vertex by the caster's size where that is further; for rays that graze the light's plane, at
+  /// least outside of the bound.
   std::uint32_t add_far_point(std::uint32_t vertex, const Vec3& q) {
     const Vec3& k = position(vertex);
     const double gain = std::max(mesh_.bounds().radius(), reach_.far_height - reach_.height(k));

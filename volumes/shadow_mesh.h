@@ -49,7 +49,8 @@ enum class Guarantee : std::uint8_t {
   kContained,
   /// A penumbra: {O < 1} lies inside it.
   kContains,
-  /// A solid: it lies inside {O = 0}, or {O < 1} inside it. Each of its triangles is proved to be on the safe side.
+  /// A solid: it lies inside {O = 0}, or {O < 1} inside it. Each of its triangles is proved to be on the safe
+  /// side.
   kCertified,
   /// A solid that is meant to be on the safe side, as far as points tell, and lies within its tolerance.
   kWithin,
@@ -82,8 +83,9 @@ std::string shadow_mesh_format_names();
 
 /// Writes the format that the extension names; PLY for the path "-", which is standard output. PLY is binary,
 /// little endian, in double, with the properties `kind`, `source` and `object` of each face. OBJ has a group
-/// for each object and kind. glTF is binary (.glb), in float around the middle of each object's part. The file is written whole or not at all. Throws UsageError for another
-/// extension, SystemError where writing fails. Cost O(triangles).
+/// for each object and kind. glTF is binary (.glb), in float around the middle of each object's part. The
+/// file is written whole or not at all. Throws UsageError for another extension, SystemError where writing
+/// fails. Cost O(triangles).
 void write_shadow_mesh(const std::filesystem::path& path, const ShadowMesh& mesh);
 
 }  // namespace penumbra

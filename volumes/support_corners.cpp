@@ -4,9 +4,9 @@
 // lies where n·p ≤ r. Through a vertex v it has κ = (r - cos φ v.x - sin φ v.y) / v.z, so that the side of q
 // is, times v.z,
 //   A cos φ + B sin φ + C,   A = d.x v.z - v.x d.z,  B = d.y v.z - v.y d.z,  C = r d.z,  d = q - v:
-// positive beyond the plane, negative on the disk's side. Everything below is this one expression. v is the way from
-// the light's center to the vertex; of a distant light it is (0, 0, 1), and the expression is still right. d is the
-// difference of two vertices as they are, which a light far away does not round.
+// positive beyond the plane, negative on the disk's side. Everything below is this one expression. v is the
+// way from the light's center to the vertex; of a distant light it is (0, 0, 1), and the expression is still
+// right. d is the difference of two vertices as they are, which a light far away does not round.
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>

@@ -67,8 +67,8 @@ struct Supports {
 };
 
 /// Finds all facets and cone sectors. The exact predicates decide which facets there are. Angles, and which
-/// sectors cones fill, are found in double. Only edges in front of the light's plane count (all of them, where the
-/// light is distant); one that crosses it counts with its part in front. Cost O(band · ring).
+/// sectors cones fill, are found in double. Only edges in front of the light's plane count (all of them,
+/// where the light is distant); one that crosses it counts with its part in front. Cost O(band · ring).
 Supports find_supports(const TriangleMesh& mesh, const VertexRings& rings, const CircularLight& light,
                        const Silhouettes& silhouettes);
 

@@ -2,9 +2,9 @@
 // that are parallel to the light are no special case.
 //
 // A normal is n = αu1 + βu2, in a basis of the plane perpendicular to the edge that does not depend on the
-// center. With w = center - v1 (of a distant light w = -m) and m the light's unit normal, the plane is tangent where q(n) = (n·w)² - r²|m
-// × n|² is 0. This quadratic form of α and β has two roots, the two planes. It is negative definite where the
-// edge's line crosses the open disk.
+// center. With w = center - v1 (of a distant light w = -m) and m the light's unit normal, the plane is
+// tangent where q(n) = (n·w)² - r²|m × n|² is 0. This quadratic form of α and β has two roots, the two
+// planes. It is negative definite where the edge's line crosses the open disk.
 #pragma once
 
 #include <array>
@@ -20,7 +20,8 @@ struct TangentPlane {
   /// The point of the disk on the plane, from where light grazes it. Of a distant light the direction to that
   /// point, -m + radius · e with unit vectors m and e.
   Vec3 contact;
-  /// The way from v1 to the contact, which large coordinates do not round. Of a distant light it is the contact.
+  /// The way from v1 to the contact, which large coordinates do not round. Of a distant light it is the
+  /// contact.
   Vec3 way;
 };
 

@@ -1,7 +1,8 @@
-// The volumes of one caster under one circular light, near or distant. The steps, in the order in which they happen:
+// The volumes of one caster under one circular light, near or distant. The steps, in the order in which they
+// happen:
 //
 //   mesh/triangle_mesh.h     positions and triangles → half-edge mesh
-//   volumes/classify.h       mesh, light             → a class per face: all-frontfacing, none-frontfacing, mixed
+//   volumes/classify.h       mesh, light → a class per face: all-frontfacing, none-frontfacing, mixed
 //   volumes/silhouettes.h    classes                 → umbra silhouette, penumbra silhouette, band
 //   volumes/extrude.h        silhouettes             → sheets: facets and cone patches, to look at
 //                            classes                 → penumbra volume
@@ -53,8 +54,8 @@ struct ShadowVolumes {
 ShadowVolumes build_shadow_volumes(const TriangleMesh& mesh, const CircularLight& light,
                                    const VolumeOptions& options = {});
 
-/// Throws UsageError unless the light is finite, its normal or direction is not 0, and its radius is at least 0 or its
-/// angle from 0 to below 180 degrees.
+/// Throws UsageError unless the light is finite, its normal or direction is not 0, and its radius is at least
+/// 0 or its angle from 0 to below 180 degrees.
 void require_valid(const CircularLight& light);
 inline void require_valid(const DiskLight& light) {
   require_valid(CircularLight(light));

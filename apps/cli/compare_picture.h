@@ -25,9 +25,9 @@ struct JudgedImage {
 /// Image minus reference: blue where too dark, red where too bright, gray where nothing was compared.
 Picture difference_picture(const JudgedImage& judged, double scale);
 
-/// From the left: the images, their reference, and each image's signed difference, with captions and the scale of the
-/// differences. All images are of one size and have the same reference. `reference` is null where it was traced: all are then
-/// shown as visibility.
+/// From the left: the images, their reference, and each image's signed difference, with captions and the
+/// scale of the differences. All images are of one size and have the same reference. `reference` is null
+/// where it was traced: all are then shown as visibility.
 Picture side_by_side(std::span<const JudgedImage> images, const Image* reference,
                      const std::string& reference_name, double exposure_stops);
 

@@ -32,7 +32,8 @@ struct Resampling {
 };
 // Of the worst pixels. The oracle's rays take some ten times as long as Embree's.
 constexpr Resampling kByRays{0.02, 1'000, 65'536}, kByOracle{0.0, 300, 32'768};
-// Where p99 is so many times the references' noise it is stated as it is, and only the few worst pixels are sampled again, for the maximum.
+// Where p99 is so many times the references' noise only the few worst pixels are sampled again: the
+// maximum's.
 constexpr double kFarAboveNoise = 25.0;
 constexpr std::size_t kFewWorst = 20;
 constexpr int kCertificateSamples = 256;
@@ -58,8 +59,8 @@ std::vector<std::uint32_t> receivers(const Image& image, const Judged& judged) {
   return pixels;
 }
 
-// Moves the pixels for which `agrees` is false out of the comparison; false where they and those that are missing are too
-// many.
+// Moves the pixels for which `agrees` is false out of the comparison; false where they and those that are
+// missing are too many.
 template <class Agrees>
 bool keep_agreeing(Comparison& comparison, Agrees agrees, std::size_t missing = 0) {
   std::vector<std::uint32_t>& judged = comparison.judged;

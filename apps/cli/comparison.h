@@ -23,8 +23,8 @@ struct Comparison {
   std::size_t skipped = 0;    ///< receivers on which image and scene disagree: at outlines, by rounding
   std::size_t resampled = 0;  ///< worst pixels sampled again before p99 and maximum were stated
   int resamples = 0;          ///< rays of each of those
-  /// Certificates of lit and umbra among the judged pixels, and those that a ray in double contradicts. Only by the oracle,
-  /// and where the image has certificates.
+  /// Certificates of lit and umbra among the judged pixels, and those that a ray in double contradicts. Only
+  /// by the oracle, and where the image has certificates.
   std::size_t certified = 0, contradicted = 0;
   std::size_t rays = 0;
   double seconds = 0.0;
@@ -43,26 +43,28 @@ Comparison compare_images(const Image& image, const Image& reference, const Judg
 struct TraceOptions {
   int samples = 4'096;  ///< of each of the two references, with seeds of their own
   int threads = 0;
-  /// By rays in double without offset (judge.h) in place of Embree's, at so many pixels chosen by chance; 0: not.
+  /// By rays in double without offset (judge.h) in place of Embree's, at so many pixels chosen by chance; 0:
+  /// not.
   std::size_t oracle_pixels = 0;
   /// The oracle looks at these pixels instead, ascending, where there are any.
   std::vector<std::uint32_t> pixels{};
-  /// Whether the worst pixels are sampled again before p99 and maximum are stated; else the references' noise is in them.
+  /// Whether the worst pixels are sampled again before p99 and maximum are stated; else the references' noise
+  /// is in them.
   bool resample = true;
   /// Nothing is shown of how far it is.
   bool quiet = false;
 };
 
-/// Images of one scene, one light and one size against two references. Pixels that one image has asked for are not traced
-/// again for the next.
+/// Images of one scene, one light and one size against two references. Pixels that one image has asked for
+/// are not traced again for the next.
 class SceneComparison {
  public:
   /// Refers to the scene. Throws UsageError where the scene has several lights and none is named.
   SceneComparison(const Scene& scene, const Judged& judged, const TraceOptions& options);
   ~SceneComparison();
 
-  /// Throws SceneError where the image was not rendered from this scene, UsageError where it is of another size than the
-  /// one before.
+  /// Throws SceneError where the image was not rendered from this scene, UsageError where it is of another
+  /// size than the one before.
   Comparison compare(const Image& image);
 
  private:

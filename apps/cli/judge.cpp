@@ -88,8 +88,8 @@ class Pinhole {
   double pixel_;
 };
 
-// Moves p into the plane of a face by what rounding has left between them. From the corner that is nearest, so that large
-// faces cost no digits.
+// Moves p into the plane of a face by what rounding has left between them. From the corner that is nearest,
+// so that large faces cost no digits.
 Vec3 in_plane(const Vec3& p, const std::array<Vec3, 3>& corners, const Vec3& normal) {
   const auto nearest =
       *std::ranges::min_element(corners, {}, [&](const Vec3& c) { return glm::dot(p - c, p - c); });

@@ -17,8 +17,8 @@ Metadata metadata_of(const Scene& scene);
 /// The same, with version, method, all of its options (seed and samples too) and the scene's path.
 Metadata metadata_of(const Scene& scene, const std::string& path, const RenderResult& result);
 
-/// "reference (samples 64, seed 1) of cube.json by penumbra 0.2.0": of options those that are not the usual ones, and samples
-/// and seed. Says so where the file does not know.
+/// "reference (samples 64, seed 1) of cube.json by penumbra 0.2.0": of options those that are not the usual
+/// ones, and samples and seed. Says so where the file does not know.
 std::string made_by(const Metadata& metadata);
 /// The same for programs.
 nlohmann::json made_by_json(const Metadata& metadata);

@@ -8,8 +8,8 @@
 
 namespace penumbra::apps {
 
-/// Object, face, P, N, visibility, region and rgb of the pixel; where another method than `reference` made the
-/// picture also the reference's visibility from 4,096 rays at that point. With several lights visibility,
+/// Object, face, P, N, visibility, region and rgb of the pixel; where another method than `reference` made
+/// the picture also the reference's visibility from 4,096 rays at that point. With several lights visibility,
 /// region and reference are objects by the lights' names.
 nlohmann::json probe_pixel(const Scene& scene, const RenderResult& result, int threads,
                            const PixelPair& pixel);

@@ -14,8 +14,8 @@ void complain(const std::string& message);
 /// A warning that what was given has no effect, and why.
 void say_ignored(const std::string& option, const std::string& why);
 
-/// "rendering  42%, 12 s left": what is done of something that has taken so many seconds. No estimate where it would be
-/// idle or a guess.
+/// "rendering 42%, 12 s left": what is done of something that has taken so many seconds. No estimate where it
+/// would be idle or a guess.
 std::string progress_text(const std::string& label, double fraction, double seconds);
 
 /// A percentage and an estimate that overwrite themselves, on a terminal only. Goes away when destroyed.

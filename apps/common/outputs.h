@@ -24,9 +24,9 @@ std::string extension_of(const std::filesystem::path& path);
 void require_extension(const std::string& option, const std::filesystem::path& path,
                        const std::vector<std::string_view>& known, bool stdout_allowed);
 
-/// Throws SystemError where the file could not be created: no such folder, a folder itself, no permission, a name that is
-/// too long. Finds before minutes of work what writing would find after them. Links are followed. Empty paths and "-"
-/// pass.
+/// Throws SystemError where the file could not be created: no such folder, a folder itself, no permission, a
+/// name that is too long. Finds before minutes of work what writing would find after them. Links are
+/// followed. Empty paths and "-" pass.
 void require_writable(const std::filesystem::path& path);
 
 /// A file that a command writes, by which option.
@@ -35,8 +35,8 @@ struct Output {
   std::filesystem::path path;
 };
 
-/// Throws UsageError where an output would replace one of the inputs, or another output, whatever links name them. Empty
-/// paths, "-" and special files, such as /dev/null, pass.
+/// Throws UsageError where an output would replace one of the inputs, or another output, whatever links name
+/// them. Empty paths, "-" and special files, such as /dev/null, pass.
 void require_apart(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs);
 
 /// Says that the file was written, and its size, if `verbose`.

@@ -28,8 +28,8 @@ struct PictureOptions {
 /// --antialias, --ambient, --background, --shadow-catcher, --show-umbra, --show-penumbra and --show-lights.
 void add_picture_options(CLI::App& command, PictureOptions& options);
 
-/// Gives the scene what was given; reads the meshes. Throws MeshError. Objects that do not cast become shadow catchers where that was asked for; a line says
-/// where there is none.
+/// Gives the scene what was given; reads the meshes. Throws MeshError. Objects that do not cast become shadow
+/// catchers where that was asked for; a line says where there is none.
 void apply(const PictureOptions& options, Scene& scene);
 
 }  // namespace penumbra::apps

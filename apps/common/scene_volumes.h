@@ -6,12 +6,12 @@
 
 namespace penumbra::apps {
 
-/// The bound is a sphere around all objects, and the light where it is no further away than ten times their size. Every
-/// volume reaches beyond it.
+/// The bound is a sphere around all objects, and the light where it is no further away than ten times their
+/// size. Every volume reaches beyond it.
 ExtrudeOptions extrude_options_for(const Scene& scene, const CircularLight& light);
 
-/// The box in which solids end and fields lie: that of all objects and a little more; that of a lone object, grown by its
-/// diagonal on all sides.
+/// The box in which solids end and fields lie: that of all objects and a little more; that of a lone object,
+/// grown by its diagonal on all sides.
 Bounds solid_bound_for(const Scene& scene);
 
 }  // namespace penumbra::apps

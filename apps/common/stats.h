@@ -7,8 +7,8 @@
 
 namespace penumbra::apps {
 
-/// `threads`: those that were used. Times are milliseconds, bytes are bytes. Counts of several lights are under
-/// "lights", in the scene's order.
+/// `threads`: those that were used. Times are milliseconds, bytes are bytes. Counts of several lights are
+/// under "lights", in the scene's order.
 nlohmann::json stats_of(const RenderResult& result, int threads);
 
 nlohmann::json to_json(const OptionValues& values);

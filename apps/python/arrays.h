@@ -1,4 +1,5 @@
-// NumPy arrays in and out. What lies in memory as the library has it is referred to, else it is converted once.
+// NumPy arrays in and out. What lies in memory as the library has it is referred to, else it is converted
+// once.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -27,8 +28,8 @@ struct PointArray {
   Shape shape;
 };
 
-/// An array of shape (..., 3) of any real numbers. `name` stands in messages. Throws TypeError for what are no numbers,
-/// ValueError for another shape.
+/// An array of shape (..., 3) of any real numbers. `name` stands in messages. Throws TypeError for what are
+/// no numbers, ValueError for another shape.
 PointArray points_of(const py::object& object, const char* name);
 /// The same of shape (n, 3).
 PointArray rows_of(const py::object& object, const char* name);

@@ -1,4 +1,5 @@
-// The parts of the module `penumbra`, each in a file of its own. A part's types are bound before those that use them.
+// The parts of the module `penumbra`, each in a file of its own. A part's types are bound before those that
+// use them.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -12,8 +12,8 @@ struct MethodChoice {
   OptionValues options;
 };
 
-/// `method`: a name or None; without one `auto` where max_error is given, else the usual. Throws ValueError for an option that
-/// the method has not, UsageError for a value outside of its domain.
+/// `method`: a name or None; without one `auto` where max_error is given, else the usual. Throws ValueError
+/// for an option that the method has not, UsageError for a value outside of its domain.
 MethodChoice choice_of(const pybind11::object& method, const pybind11::object& max_error,
                        const pybind11::kwargs& options);
 

@@ -1,4 +1,5 @@
-// The class Scene of the Python module: objects, lights and a camera, with casters that are made when they are asked for.
+// The class Scene of the Python module: objects, lights and a camera, with casters that are made when they
+// are asked for.
 #pragma once
 
 #include <filesystem>

@@ -5,8 +5,8 @@
 
 namespace penumbra::viewer {
 
-/// Opens the first file, then the window; without a file the window asks for one. Returns the exit code; throws what
-/// run_guarded knows.
+/// Opens the first file, then the window; without a file the window asks for one. Returns the exit code;
+/// throws what run_guarded knows.
 int show(ViewerOptions options);
 
 }  // namespace penumbra::viewer

@@ -26,8 +26,8 @@ std::string_view as_text(std::span<const std::byte> bytes);
 std::string_view without_mark(std::string_view text);
 
 /// A decimal number that takes up the whole token, a leading + allowed; infinite where it overflows, 0 where
-/// it underflows. What Microsoft's libraries wrote for no number and for infinity counts (-1.#IND, 1.#QNAN, 1.#INF).
-/// Returns false where the token is no number. The locale plays no part.
+/// it underflows. What Microsoft's libraries wrote for no number and for infinity counts (-1.#IND, 1.#QNAN,
+/// 1.#INF). Returns false where the token is no number. The locale plays no part.
 bool parse_number(std::string_view token, double& value);
 bool parse_number(std::string_view token, std::int64_t& value);
 

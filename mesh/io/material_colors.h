@@ -8,8 +8,8 @@
 
 namespace penumbra::detail {
 
-/// Reads a file that stands in `folder`, or several whose names blanks separate. The first color found for a material
-/// counts. Files that cannot be read, and textures, are added to soup.ignored.
+/// Reads a file that stands in `folder`, or several whose names blanks separate. The first color found for a
+/// material counts. Files that cannot be read, and textures, are added to soup.ignored.
 void add_colors(PolygonSoup& soup, const std::filesystem::path& folder, const std::string& file);
 
 }  // namespace penumbra::detail

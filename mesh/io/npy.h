@@ -17,8 +17,8 @@ struct NpyRows {
   std::size_t rows = 0, columns = 0;
   std::vector<double> values;
 };
-/// Of float32 or float64 of either byte order, in C or Fortran order. Throws MeshError for other files, and where the file is
-/// shorter than its shape says; `advice` ends its message.
+/// Of float32 or float64 of either byte order, in C or Fortran order. Throws MeshError for other files, and
+/// where the file is shorter than its shape says; `advice` ends its message.
 NpyRows read_npy_rows(
     const std::filesystem::path& path,
     const char* advice = "save it by numpy.save as an array of float32 or float64 of two dimensions");

@@ -3,9 +3,9 @@
 //
 // In: a path or bytes. Out: positions in double and polygons as lists of indices, exactly as the file has
 // them; `triangulate` makes triangles of them. Nothing in a file is trusted: counts are checked against its
-// size before memory is reserved, every index is checked, every coordinate that a face uses must be finite; other
-// vertices that are not are put at 0. Colors of vertices and faces, texture coordinates and all that is not
-// vertices, faces, normals and materials are skipped, and named in `ignored`.
+// size before memory is reserved, every index is checked, every coordinate that a face uses must be finite;
+// other vertices that are not are put at 0. Colors of vertices and faces, texture coordinates and all that is
+// not vertices, faces, normals and materials are skipped, and named in `ignored`.
 //
 // The readers are our own: OpenMesh's read single precision only and trust the counts that they find, and a
 // bad file must give a clear message.
@@ -36,8 +36,8 @@ struct PolygonSoup {
   std::vector<std::uint32_t> corners;
   /// Polygon i has the corners first_corner[i] up to, but not including, first_corner[i + 1].
   std::vector<std::uint32_t> first_corner;
-  /// Normals, of any length, and for each corner a number among them or kNoNormal. For shading: what is in front and
-  /// behind is told by the order of corners. Both empty where no corner has one.
+  /// Normals, of any length, and for each corner a number among them or kNoNormal. For shading: what is in
+  /// front and behind is told by the order of corners. Both empty where no corner has one.
   std::vector<Vec3> normals;
   std::vector<std::uint32_t> corner_normals;
   static constexpr std::uint32_t kNoNormal = 0xFFFFFFFFu;
@@ -62,8 +62,9 @@ std::string mesh_format_names();
 
 /// Reads a file. A file that begins as PLY does is PLY; otherwise its extension names the format; otherwise
 /// its content does. Throws MeshError, with line or byte, where the file is missing, no regular file, empty,
-/// truncated, malformed, in no known format, or without faces. Materials of OBJ get their colors from the files that
-/// it names (MTL, `Kd`), beside it; a file that is missing is no error, but stands in `ignored`. Cost O(bytes).
+/// truncated, malformed, in no known format, or without faces. Materials of OBJ get their colors from the
+/// files that it names (MTL, `Kd`), beside it; a file that is missing is no error, but stands in `ignored`.
+/// Cost O(bytes).
 PolygonSoup read_polygon_soup(const std::filesystem::path& path);
 /// The same from memory. `name` stands in messages, and its extension counts as a file's does.
 PolygonSoup parse_polygon_soup(std::span<const std::byte> bytes, const std::string& name);
@@ -74,8 +75,8 @@ struct PolygonReport {
   std::size_t divided = 0;
   /// Of these, those with a corner that turns away from the others.
   std::size_t concave = 0;
-  /// Of these, those that cross themselves. What they enclose is not defined; they are divided from their first
-  /// corner.
+  /// Of these, those that cross themselves. What they enclose is not defined; they are divided from their
+  /// first corner.
   std::size_t crossing = 0;
   /// Polygons with fewer than three corners. They are left out.
   std::size_t skipped = 0;
@@ -90,9 +91,10 @@ struct Triangulation {
   PolygonReport report;
 };
 /// Divides each polygon into triangles over its corners. Convex polygons are divided from their first corner,
-/// concave ones so that the triangles cover their inside; a hole may be joined to the outline by a bridge. The
-/// rule for polygons that are not planar, have no area or cross themselves is in mesh/polygons/polygon_triangles.h.
-/// Cost O(corners) for convex polygons, expected O(n log n) for a concave one of n corners.
+/// concave ones so that the triangles cover their inside; a hole may be joined to the outline by a bridge.
+/// The rule for polygons that are not planar, have no area or cross themselves is in
+/// mesh/polygons/polygon_triangles.h. Cost O(corners) for convex polygons, expected O(n log n) for a concave
+/// one of n corners.
 Triangulation triangulate(const PolygonSoup& soup);
 
 /// A mesh and what became of its file.

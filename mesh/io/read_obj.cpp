@@ -1,5 +1,5 @@
-// Wavefront OBJ: v, vn and f (v, v/vt, v//vn, v/vt/vn, negative indices count back from the last vertex so far), usemtl
-// and mtllib; everything else is skipped. A backslash at the end of a line continues it.
+// Wavefront OBJ: v, vn and f (v, v/vt, v//vn, v/vt/vn, negative indices count back from the last vertex so
+// far), usemtl and mtllib; everything else is skipped. A backslash at the end of a line continues it.
 #include <utility>
 
 #include "mesh/io/cursor.h"

@@ -1,6 +1,6 @@
 // Object File Format (Geomview): OFF, COFF, NOFF, STOFF and combinations, or no header word at all in a file
-// named .off. The first count may be glued to the header word. Each vertex and each face ends its line: normals are
-// read, colors and texture coordinates behind them are skipped.
+// named .off. The first count may be glued to the header word. Each vertex and each face ends its line:
+// normals are read, colors and texture coordinates behind them are skipped.
 #include "mesh/io/cursor.h"
 #include "mesh/io/formats.h"
 

@@ -1,6 +1,6 @@
 // Polygon File Format (Turk, "The PLY Polygon File Format", 1994): ASCII and binary of either byte order.
-// Wanted are x, y, z and nx, ny, nz of element `vertex` and the list `vertex_indices` (or `vertex_index`) of elements `face` and
-// `tristrips`; all else is skipped.
+// Wanted are x, y, z and nx, ny, nz of element `vertex` and the list `vertex_indices` (or `vertex_index`) of
+// elements `face` and `tristrips`; all else is skipped.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -226,8 +226,8 @@ class ElementReader {
     }
   }
 
-  /// Each vertex after the second one makes a triangle with the two before it, every other one turned round; -1
-  /// begins anew.
+  /// Each vertex after the second one makes a triangle with the two before it, every other one turned round;
+  /// -1 begins anew.
   void read_strip(const PlyProperty& property) {
     const std::size_t size = read_list_size(property);
     std::array<std::int64_t, 2> before{};

@@ -1,6 +1,6 @@
-// Stereolithography files, ASCII and binary. A binary file whose header says "solid" is told by its size or, where it
-// has bytes to spare, by not being text. Normals are skipped: the corners' order is what counts. Vertices are not shared; building the
-// mesh welds them.
+// Stereolithography files, ASCII and binary. A binary file whose header says "solid" is told by its size or,
+// where it has bytes to spare, by not being text. Normals are skipped: the corners' order is what counts.
+// Vertices are not shared; building the mesh welds them.
 #include <algorithm>
 
 #include "mesh/io/cursor.h"

@@ -47,8 +47,8 @@ void write_directly(const fs::path& path, const WriteCallback& write) {
   write_stream(out, path.string(), write);
 }
 
-/// Paths of temporary files, as a signal handler may read them: they stay where they are. Of more at one time than
-/// there are places the rest is not removed by remove_unfinished_files.
+/// Paths of temporary files, as a signal handler may read them: they stay where they are. Of more at one time
+/// than there are places the rest is not removed by remove_unfinished_files.
 struct Unfinished {
   enum State : int { kFree, kClaimed, kFilled };
   std::atomic<int> state{kFree};
@@ -69,8 +69,8 @@ Unfinished* remember(const std::string& path) {
   return nullptr;
 }
 
-/// A file that is removed unless it was renamed to its final name. Its own name is short: the final one may be as long
-/// as the file system allows.
+/// A file that is removed unless it was renamed to its final name. Its own name is short: the final one may
+/// be as long as the file system allows.
 class Temporary {
  public:
   explicit Temporary(const fs::path& final_path) : final_path_(final_path) {

@@ -182,8 +182,8 @@ SquareTriangulation::Corner SquareTriangulation::opposite_of(const Side& side) c
   }
 }
 
-/// Turns the crossed sides, each where it can be turned, until none crosses the segment from a to b. The limit
-/// is far beyond what is needed.
+/// Turns the crossed sides, each where it can be turned, until none crosses the segment from a to b. The
+/// limit is far beyond what is needed.
 bool SquareTriangulation::turn_crossed(std::uint32_t a, std::uint32_t b, std::deque<Side>& crossed) {
   for (std::size_t left = 4 * crossed.size() * crossed.size() + 16; !crossed.empty(); --left) {
     if (left == 0) return false;

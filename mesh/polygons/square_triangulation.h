@@ -1,6 +1,6 @@
 // A triangulation of the square [-4, 4]² in which points are inserted one after another (Lawson 1977), then
-// segments between them by turning the sides that they cross (Sloan, "A fast algorithm for generating constrained
-// Delaunay triangulations", 1993). All signs are exact.
+// segments between them by turning the sides that they cross (Sloan, "A fast algorithm for generating
+// constrained Delaunay triangulations", 1993). All signs are exact.
 //
 // Our own, since CGAL's triangulations are under the GPL and penumbra::mesh is not.
 #pragma once

@@ -33,8 +33,8 @@ class Patches {
     double area;
     std::vector<IndexedTriangle> faces;
     std::uint32_t patch;
-    /// By area, then by the faces themselves, so that their order in the file plays no part. Of faces that repeat each
-    /// other the last comes first.
+    /// By area, then by the faces themselves, so that their order in the file plays no part. Of faces that
+    /// repeat each other the last comes first.
     bool operator<(const Candidate& other) const {
       return std::tie(area, faces, other.patch) < std::tie(other.area, other.faces, patch);
     }

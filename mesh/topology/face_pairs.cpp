@@ -67,7 +67,8 @@ class Pairing {
   std::vector<std::uint32_t>& opposite_;
 };
 
-/// Sorted by angle from the middle of the widest gap on; within the rounding of angles ends of solids come first.
+/// Sorted by angle from the middle of the widest gap on; within the rounding of angles ends of solids come
+/// first.
 std::vector<Spoke> Pairing::spokes_of(const std::vector<std::uint32_t>& faces) const {
   const auto [low, high] = std::minmax({vertex(faces[0]), vertex(next_in_face(faces[0]))});
   const Vec3 origin = positions_[low], axis = unit(positions_[high] - origin);
@@ -152,8 +153,8 @@ bool Pairing::is_one_fan(std::uint32_t from, std::uint32_t to) const {
   return false;
 }
 
-/// Pairs that belong to the same fans at both ends change partners. `fans` are those before any did; they only
-/// come apart.
+/// Pairs that belong to the same fans at both ends change partners. `fans` are those before any did; they
+/// only come apart.
 void Pairing::part_fans(std::uint32_t g, const std::vector<std::uint32_t>& fans) {
   std::vector<std::uint32_t> pairs = pairs_of(g);
   const auto ends = [&](std::uint32_t h) { return std::pair(fans[h], fans[opposite_[h]]); };
@@ -178,8 +179,8 @@ void Pairing::part_pairs(std::span<const std::uint32_t> pairs) {
   }
 }
 
-/// Cuts all pairs of an edge where two pairs, or a pair and a face that is not paired, have the same fans at both
-/// ends. Returns whether there was one.
+/// Cuts all pairs of an edge where two pairs, or a pair and a face that is not paired, have the same fans at
+/// both ends. Returns whether there was one.
 bool Pairing::cut_doubled_edges(std::span<const std::uint32_t> crowded,
                                 const std::vector<std::uint32_t>& fans) {
   bool any = false;

@@ -1,5 +1,5 @@
-// Half-edges of a list of triangles: half-edge 3f+k runs from corner k to corner (k+1)%3 of triangle f. A corner
-// has the number of the half-edge that leaves it.
+// Half-edges of a list of triangles: half-edge 3f+k runs from corner k to corner (k+1)%3 of triangle f. A
+// corner has the number of the half-edge that leaves it.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ inline std::uint32_t vertex_at(std::span<const IndexedTriangle> triangles, std::
   return triangles[corner / 3][corner % 3];
 }
 
-/// Half-edges grouped by their undirected edge, edges in the order of their lower vertices, then of the higher
-/// ones.
+/// Half-edges grouped by their undirected edge, edges in the order of their lower vertices, then of the
+/// higher ones.
 struct EdgeGroups {
   std::vector<std::uint32_t> half_edges, start;
 

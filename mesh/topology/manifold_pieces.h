@@ -7,9 +7,9 @@
 // The rule follows Guéziec et al., "Cutting and Stitching: Converting Sets of Polygons to Manifold Surfaces"
 // (2001). It does not depend on the order of the faces:
 //   1. An edge with exactly two faces, in opposite directions, connects them.
-//   2. At an edge with more faces, those that may be parts of closed surfaces are joined in pairs by their angle
-//      about it, where as many run one way as the other; then the others (mesh/topology/face_pairs.h). What is left, and
-//      two faces in one direction, is cut.
+//   2. At an edge with more faces, those that may be parts of closed surfaces are joined in pairs by their
+//      angle about it, where as many run one way as the other; then the others (mesh/topology/face_pairs.h).
+//      What is left, and two faces in one direction, is cut.
 //   3. A vertex gets one copy for each fan of faces that are connected around it.
 //   4. Where both sides of a cut run between the same two copies, they are stitched again.
 // Rule 4 is never ambiguous: an open fan has two ends, one that runs out of the vertex and one that runs into

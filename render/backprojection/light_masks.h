@@ -1,8 +1,8 @@
 // Method backprojection, step masks: which samples of the light a rectangle along its axes holds.
 //
-// In: a pattern of samples in the square [-1, 1]² or the unit disk, the same for all receivers. Out: a mask of one bit a sample for
-// any rectangle: those of the k leftmost samples, for each k, and of the k lowest, are made once, so that a rectangle is found by
-// four searches, two differences and an and.
+// In: a pattern of samples in the square [-1, 1]² or the unit disk, the same for all receivers. Out: a mask
+// of one bit a sample for any rectangle: those of the k leftmost samples, for each k, and of the k lowest,
+// are made once, so that a rectangle is found by four searches, two differences and an and.
 #pragma once
 
 #include <cstdint>

@@ -8,8 +8,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Accuracy and speed. Nodes seen smaller than this, of the light's half extents, are one patch where their heights differ by less
-/// than this, of their height above the receiver.
+/// Accuracy and speed. Nodes seen smaller than this, of the light's half extents, are one patch where their
+/// heights differ by less than this, of their height above the receiver.
 constexpr double kSmall = 0.1, kNearlyFlat = 0.02;
 
 }  // namespace
@@ -35,8 +35,8 @@ PatchTree::PatchTree(const ShadowMap& map, const glm::dvec2& spread, const Light
   }
 }
 
-/// Whether some texel of a node may be in front of the light: at its greatest height, where it is seen nearest to the light's middle.
-/// Level 0 are texels. A stretched texel reaches to its neighbors.
+/// Whether some texel of a node may be in front of the light: at its greatest height, where it is seen
+/// nearest to the light's middle. Level 0 are texels. A stretched texel reaches to its neighbors.
 bool PatchTree::reaches_light(const MapReceiver& receiver, const Node& node, float highest) const {
   const double above = highest - receiver.height;
   if (!(above > map_.texel() * options_.bias.constant)) return false;
@@ -48,8 +48,8 @@ bool PatchTree::reaches_light(const MapReceiver& receiver, const Node& node, flo
   return low.x < reach.x && high.x > -reach.x && low.y < reach.y && high.y > -reach.y;
 }
 
-/// The part of the light behind a node whose texels are all higher than the receiver and its plane: where it hides all of the light,
-/// or where it is nearly flat and seen small.
+/// The part of the light behind a node whose texels are all higher than the receiver and its plane: where it
+/// hides all of the light, or where it is nearly flat and seen small.
 std::optional<LightRectangle> PatchTree::as_one_patch(const MapReceiver& receiver, const Node& node) const {
   const Level& level = levels_[static_cast<std::size_t>(node.level - 1)];
   const double highest = level.highest[level.place(node.x, node.y)],

@@ -1,12 +1,14 @@
-// Method backprojection, step patches: texels of a shadow map as small rectangles parallel to the light, and which of them lie
-// between a receiver and the light.
+// Method backprojection, step patches: texels of a shadow map as small rectangles parallel to the light, and
+// which of them lie between a receiver and the light.
 //
-// In: a shadow map. Out: for a receiver at (q, h), the texels that are higher and in front of its light, by a pyramid of greatest and
-// least heights. Texels that are nearly one surface, and together seen smaller than a few samples, are one patch. A texel from q0 to q1 at the height H hides the part from (q0 - q) / (s (H - h)) to (q1 - q) / (s (H - h)) of the light, s its
-// spread.
+// In: a shadow map. Out: for a receiver at (q, h), the texels that are higher and in front of its light, by a
+// pyramid of greatest and least heights. Texels that are nearly one surface, and together seen smaller than a
+// few samples, are one patch. A texel from q0 to q1 at the height H hides the part from (q0 - q) / (s (H -
+// h)) to (q1 - q) / (s (H - h)) of the light, s its spread.
 //
-// Where texels next to each other have different heights, their parts of the light leave a gap, though they may be one surface.
-// Gap filling stretches a texel to the borders of its left and lower neighbors, where those are higher than the receiver, too.
+// Where texels next to each other have different heights, their parts of the light leave a gap, though they
+// may be one surface. Gap filling stretches a texel to the borders of its left and lower neighbors, where
+// those are higher than the receiver, too.
 #pragma once
 
 #include <optional>
@@ -29,8 +31,8 @@ class PatchTree {
   PatchTree(const ShadowMap& map, const glm::dvec2& spread, const LightMasks& masks,
             const PatchOptions& options);
 
-  /// Adds the samples that the map's patches hide from a receiver; returns how many patches it looked at. Stops where none
-  /// is left.
+  /// Adds the samples that the map's patches hide from a receiver; returns how many patches it looked at.
+  /// Stops where none is left.
   std::size_t hide(const MapReceiver& receiver, std::span<MaskWord> mask) const;
 
  private:

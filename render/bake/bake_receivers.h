@@ -1,4 +1,5 @@
-// Bake: means over receivers, what every baked value is. Texels, faces and corners of faces differ in their receivers alone.
+// Bake: means over receivers, what every baked value is. Texels, faces and corners of faces differ in their
+// receivers alone.
 //
 //   quantity     V of each light, or the irradiance of all lights together, red, green and blue
 //   mean         Σ weight · quantity / Σ weight over the receivers of a target
@@ -26,8 +27,8 @@ struct BakeSource {
   BakeQuantity quantity = BakeQuantity::kVisibility;
   /// Its progress is not looked at.
   VisibilityOptions visibility{};
-  /// Numbers of objects that get their light on the back of their faces: rooms that are one closed mesh, whose faces look outward once it is
-  /// read.
+  /// Numbers of objects that get their light on the back of their faces: rooms that are one closed mesh,
+  /// whose faces look outward once it is read.
   std::vector<std::size_t> backs{};
 
   std::size_t channels() const { return quantity == BakeQuantity::kIrradiance ? 3 : lights.size(); }
@@ -45,7 +46,8 @@ struct BakeReceivers {
   std::vector<double> weights{};
 
   std::size_t size() const { return points.size(); }
-  /// A point of the face at these barycentric coordinates: not moved off the face. `normal`: unit, on the side that gets light.
+  /// A point of the face at these barycentric coordinates: not moved off the face. `normal`: unit, on the
+  /// side that gets light.
   void add(const TriangleMesh& mesh, std::uint32_t object, std::uint32_t face, const Vec3& barycentric,
            const Vec3& normal, std::uint32_t target, double weight);
   /// Refers to this.
@@ -57,8 +59,8 @@ struct BakeReceivers {
 /// The unit normal of a face by the order of its corners; 0 for a face without area.
 Vec3 face_normal(const TriangleMesh& mesh, std::uint32_t face);
 
-/// `targets` means a channel, channel after channel. NaN where the weights of a target add up to 0. Throws as `visibility` does. Cost: one visibility
-/// a receiver and light.
+/// `targets` means a channel, channel after channel. NaN where the weights of a target add up to 0. Throws as
+/// `visibility` does. Cost: one visibility a receiver and light.
 std::vector<float> bake_means(const BakeSource& source, const BakeReceivers& receivers, std::size_t targets,
                               const Progress& progress = {});
 

@@ -6,8 +6,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Accuracy. How much the values that are there count, of the weight of a texel full of samples: what samples leave open stays; what they say changes by
-/// about as little as this.
+/// Accuracy. How much the values that are there count, of the weight of a texel full of samples: what samples
+/// leave open stays; what they say changes by about as little as this.
 constexpr double kStay = 1e-4;
 /// Accuracy: the residual that is left, of the first one.
 constexpr double kResidual = 1e-5;

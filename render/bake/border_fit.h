@@ -22,8 +22,9 @@ struct BorderSample {
   double weight;
 };
 
-/// Changes the texels of `channel` whose numbers are in `unknown` so that Σ weight · (lookup - value)² over the samples is least. What samples leave open stays near
-/// the values that are there. Sparse least squares by conjugate gradients; deterministic. Cost O(samples) a step, some tens of steps.
+/// Changes the texels of `channel` whose numbers are in `unknown` so that Σ weight · (lookup - value)² over
+/// the samples is least. What samples leave open stays near the values that are there. Sparse least squares
+/// by conjugate gradients; deterministic. Cost O(samples) a step, some tens of steps.
 void fit_borders(int width, int height, const std::vector<BorderSample>& samples,
                  const std::vector<float>& values, const std::vector<std::uint32_t>& unknown,
                  std::vector<float>& channel);

@@ -45,7 +45,8 @@ glm::dvec2 turned(const glm::dvec2& p, const glm::dvec2& axis) {
   return {p.x * axis.x + p.y * axis.y, p.y * axis.x - p.x * axis.y};
 }
 
-/// The direction of the side of the hull along which the bounding box is smallest; the longer side of the box runs along it.
+/// The direction of the side of the hull along which the bounding box is smallest; the longer side of the box
+/// runs along it.
 glm::dvec2 best_axis(const std::vector<glm::dvec2>& hull) {
   glm::dvec2 best(1.0, 0.0);
   double least = std::numeric_limits<double>::infinity();

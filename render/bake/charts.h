@@ -17,9 +17,10 @@ struct Chart {
   glm::dvec2 extent{0.0};
 };
 
-/// Faces that are connected over edges, with normals within `degrees` of the first one's, projected along their mean normal and turned so that
-/// the bounding box is small. Where faces of one chart overlap in the plane, later ones begin charts of their own. Faces without area are left out. Cost expected
-/// O(faces · log faces).
+/// Faces that are connected over edges, with normals within `degrees` of the first one's, projected along
+/// their mean normal and turned so that the bounding box is small. Where faces of one chart overlap in the
+/// plane, later ones begin charts of their own. Faces without area are left out. Cost expected O(faces · log
+/// faces).
 std::vector<Chart> make_charts(const TriangleMesh& mesh, std::uint32_t object, double degrees);
 
 }  // namespace penumbra::detail

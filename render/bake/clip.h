@@ -43,7 +43,8 @@ class ConvexPolygon {
     double area = 0.0;
     glm::dvec2 centroid{0.0};
   };
-  /// The area is not negative, whichever way the polygon turns. Without area the centroid is the first corner.
+  /// The area is not negative, whichever way the polygon turns. Without area the centroid is the first
+  /// corner.
   AreaAndCentroid measure() const {
     if (empty()) return {};
     double area = 0.0;

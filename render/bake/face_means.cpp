@@ -58,7 +58,8 @@ std::size_t FaceMeans::values(std::size_t part) const {
 std::vector<float> FaceMeans::bake(std::size_t part, const Progress& progress) const {
   const std::vector<Vec3> places = centers(options_.side);
   const auto object = static_cast<std::uint32_t>(object_);
-  // One receiver for each place; with vertices it counts for three targets, so values are found once and weighted here.
+  // One receiver for each place; with vertices it counts for three targets, so values are found once and
+  // weighted here.
   BakeReceivers receivers;
   const std::size_t first = part * options_.part, count = faces(part);
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,8 +1,8 @@
 // Bake: means over the faces of an object, or around its vertices.
 //
 //   over a face       ∫ q dA / ∫ dA over the face
-//   around a vertex   ∫ h q dA / ∫ h dA over the faces at the vertex, with h linear on each, 1 at the vertex and 0 at its other corners: the values that a
-//                     renderer interpolates between vertices
+//   around a vertex   ∫ h q dA / ∫ h dA over the faces at the vertex, with h linear on each, 1 at the vertex
+//                     and 0 at its other corners: the values that a renderer interpolates between vertices
 //
 // Integrals are sums over the centers of side² triangles, into which each face is divided.
 #pragma once
@@ -33,12 +33,13 @@ class FaceMeans {
   std::size_t parts() const;
   /// How many faces the part has.
   std::size_t faces(std::size_t part) const;
-  /// Values of a part, for `finish`. The same wherever and whenever it is called. Throws as `visibility` does.
+  /// Values of a part, for `finish`. The same wherever and whenever it is called. Throws as `visibility`
+  /// does.
   std::vector<float> bake(std::size_t part, const Progress& progress = {}) const;
   /// How many values that are.
   std::size_t values(std::size_t part) const;
-  /// One list a channel, one value a face or vertex in the mesh's order; NaN where there is no area. `values_of(part)` gives what `bake` gave. Throws UsageError for values of
-  /// another number.
+  /// One list a channel, one value a face or vertex in the mesh's order; NaN where there is no area.
+  /// `values_of(part)` gives what `bake` gave. Throws UsageError for values of another number.
   std::vector<std::vector<float>> finish(
       const std::function<std::vector<float>(std::size_t part)>& values_of) const;
 

@@ -39,8 +39,8 @@ class TextureCoverage {
   /// A bilinear lookup in the texel may need a texel that is not full.
   bool is_at_border(int x, int y) const;
 
-  /// Calls `visit` for every part of a face in every cell of the tile whose texel `wanted` says yes to; each texel is divided into side² cells. Pieces come face by
-  /// face, always in the same order.
+  /// Calls `visit` for every part of a face in every cell of the tile whose texel `wanted` says yes to; each
+  /// texel is divided into side² cells. Pieces come face by face, always in the same order.
   void for_each_piece(std::size_t tile, int side, const std::function<bool(int x, int y)>& wanted,
                       const std::function<void(const TexelPiece&)>& visit) const;
 
@@ -55,7 +55,8 @@ class TextureCoverage {
   std::vector<float> coverage_;
 };
 
-/// Where a point of the texture lies in a face, each coordinate at least 0, together 1. The face must have an area in the texture.
+/// Where a point of the texture lies in a face, each coordinate at least 0, together 1. The face must have an
+/// area in the texture.
 Vec3 barycentric_in(const FaceUv& uv, const glm::dvec2& at);
 
 }  // namespace penumbra::detail

@@ -7,8 +7,8 @@ namespace penumbra::detail {
 
 /// map-size: texels a side.
 OptionSchema map_size_option();
-/// map-bias and slope-bias: what is not this much nearer to the light than the receiver hides nothing from it; texels, and
-/// texels times the tangent of the slope of the receiver's plane.
+/// map-bias and slope-bias: what is not this much nearer to the light than the receiver hides nothing from
+/// it; texels, and texels times the tangent of the slope of the receiver's plane.
 std::vector<OptionSchema> bias_options();
 
 /// As of those options.

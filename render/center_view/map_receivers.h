@@ -1,7 +1,7 @@
 // Methods with a shadow map of the light's center: receivers in the coordinates of the map.
 //
-// In: receivers, a LightProjection. Out: where each one is in (q, h), the plane that it lies in there, and the window of the map
-// in which receivers look.
+// In: receivers, a LightProjection. Out: where each one is in (q, h), the plane that it lies in there, and
+// the window of the map in which receivers look.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -23,7 +23,8 @@ std::size_t clip_at_light(const Vec3* corners, const LightProjection& projection
   return count;
 }
 
-/// Calls `part(places, heights, corners)` with what is in front of the light of every face of a mesh from `first` to `last`.
+/// Calls `part(places, heights, corners)` with what is in front of the light of every face of a mesh from
+/// `first` to `last`.
 template <class Part>
 void for_each_part(const TriangleMesh& mesh, const LightProjection& projection, std::size_t first,
                    std::size_t last, const Part& part) {

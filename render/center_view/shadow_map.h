@@ -1,7 +1,9 @@
-// Methods with a shadow map of the light's center: what the light's center sees of the casters first, as heights.
+// Methods with a shadow map of the light's center: what the light's center sees of the casters first, as
+// heights.
 //
-// The map is made in the coordinates (q, h) of a LightProjection: lines and planes stay what they are, so that a face is filled
-// between its corners by a plane, and every light is a distant one. It is filled on the processor, by texels' centers.
+// The map is made in the coordinates (q, h) of a LightProjection: lines and planes stay what they are, so
+// that a face is filled between its corners by a plane, and every light is a distant one. It is filled on the
+// processor, by texels' centers.
 //
 // L. Williams, "Casting curved shadows on curved surfaces" (1978).
 #pragma once
@@ -50,9 +52,9 @@ struct TexelRange {
 
 class ShadowMap {
  public:
-  /// `size` texels a side. Cost O(faces + texels that they cover), on all threads of the arena. The result does not depend on
-  /// their number. With `above`, a map of the same window and size, only what is lower than its heights is drawn: the next
-  /// surface.
+  /// `size` texels a side. Cost O(faces + texels that they cover), on all threads of the arena. The result
+  /// does not depend on their number. With `above`, a map of the same window and size, only what is lower
+  /// than its heights is drawn: the next surface.
   ShadowMap(const Scene& scene, const LightProjection& projection, const MapWindow& window, int size,
             tbb::task_arena& threads, Drawn drawn = Drawn::kCasters, const ShadowMap* above = nullptr);
   /// Puts a height where no face is. Not while another thread uses the map.

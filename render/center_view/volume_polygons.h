@@ -1,12 +1,13 @@
-// What the light's center sees, for several methods: silhouettes, and the surfaces of shadow volumes behind them.
+// What the light's center sees, for several methods: silhouettes, and the surfaces of shadow volumes behind
+// them.
 //
-// In: casters, the light's center. Out: caps, the faces that cast, turned towards the center, and sides: the part of the plane
-// through the center and an edge that lies beyond the edge. A point is in as many volumes as there are such faces between it and
-// the center.
+// In: casters, the light's center. Out: caps, the faces that cast, turned towards the center, and sides: the
+// part of the plane through the center and an edge that lies beyond the edge. A point is in as many volumes
+// as there are such faces between it and the center.
 //
-// Of a closed mesh the faces that look at the center cast: the others lie behind those. A side then stands at each silhouette
-// edge. Of an open mesh, and of one around the center, all faces do, each turned towards the center: edges between two of them
-// whose sides cancel have none.
+// Of a closed mesh the faces that look at the center cast: the others lie behind those. A side then stands at
+// each silhouette edge. Of an open mesh, and of one around the center, all faces do, each turned towards the
+// center: edges between two of them whose sides cancel have none.
 #pragma once
 
 #include <cstdint>

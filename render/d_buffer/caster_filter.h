@@ -19,8 +19,8 @@ struct ReadTriangles {
 
 /// The triangles that may lie before a receiver that does not see the light's center; only these are read. Of
 /// a caster that shows only fronts those that face the center. Those that reach far out of the window are cut
-/// (window_clip.h). `points`: as from drawn_points. Casters that cannot occlude are left out. Cost O(triangles), on all
-/// cores.
+/// (window_clip.h). `points`: as from drawn_points. Casters that cannot occlude are left out. Cost
+/// O(triangles), on all cores.
 ReadTriangles triangles_before_hidden(const CasterTriangles& casters, const DBufferView& view,
                                       const std::vector<glm::vec4>& points, const ReceiverGrid& receivers);
 

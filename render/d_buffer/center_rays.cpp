@@ -31,7 +31,8 @@ constexpr std::size_t kLanes = RayPacket::kRays;
 /// Speed: pixels a side of a block whose rays share a packet (d_buffer_bench).
 constexpr int kBlock = 4;
 
-/// A disk at center - weight · x as seen from x: of a distant light the direction towards it, the same for all x.
+/// A disk at center - weight · x as seen from x: of a distant light the direction towards it, the same for
+/// all x.
 struct SeenDisk {
   explicit SeenDisk(const CircularLight& light)
       : normal(detail::unit(light.normal)),

@@ -36,13 +36,13 @@ class CenterRays {
   /// of that part takes the center's place. 1 behind the light, and where all of the disk is below the
   /// horizon. Cost: one ray a pixel, on all cores.
   void center_seen(const CircularLight& light, std::vector<float>& out) const;
-  /// Nine patterns of sixteen points on the disk alternate over three by three pixels (interleaved sampling, A. Keller
-  /// and W. Heidrich 2001). The share of the points on one side of a chord is off by .037 (root mean square over all
-  /// chords) for one pattern, at most by .14, and by .007 for the mean of nine.
+  /// Nine patterns of sixteen points on the disk alternate over three by three pixels (interleaved sampling,
+  /// A. Keller and W. Heidrich 2001). The share of the points on one side of a chord is off by .037 (root
+  /// mean square over all chords) for one pattern, at most by .14, and by .007 for the mean of nine.
   static constexpr std::size_t kPatterns = 9;
   static std::span<const detail::DiskPoint> points(std::size_t pattern);
-  /// Which points of its pattern each of the given pixels sees, all of which see a surface. Cost: sixteen rays a pixel,
-  /// on all cores.
+  /// Which points of its pattern each of the given pixels sees, all of which see a surface. Cost: sixteen
+  /// rays a pixel, on all cores.
   std::vector<SeenPoints> seen_points(const CircularLight& light,
                                       std::span<const std::uint32_t> pixels) const;
   /// The same for all patterns: kPatterns a pixel, pixel by pixel.

@@ -8,10 +8,11 @@
 //   2 receivers    receivers/occluding_casters.h
 //                                           which casters cannot occlude: they take no part
 //   3 receivers    view/, entries/receiver_grid.h
-//                                           the light's space and its window, perspectives from the light's center;
-//                                           which texels will be read
+//                                           the light's space and its window, perspectives from the light's
+//                                           center; which texels will be read
 //   4 classify, silhouettes, supports, reach, corners, facets
-//                  boundaries.h, entries/   facets, cone sectors and gap faces of the boundaries, as triangles
+//                  boundaries.h, entries/   facets, cone sectors and gap faces of the boundaries, as
+//                                           triangles
 //   5 occluders    fill_passes.h            first and last surface, drawn while step 4 runs
 //   6 entries      fill_passes.h            the triangles of step 4, drawn while entries/tiles.h chooses the
 //                                           parts of the image that step 7 visits
@@ -24,15 +25,15 @@
 // inverted and the branches of eq. 3 swapped); the paper's own contents, corrected, are an option. Neighbors
 // of an edge are known too: the shader follows the boundary as far as it lies in the disk.
 //
-// Everything is drawn and looked up in a space in which every light is a distant one (view/light_space.h), relative to
-// the part of it that the image's receivers and the casters' penumbrae have in common. It is made in double for each
-// frame, and only then rounded to float: neither a light that is far away nor a floor that goes on to the horizon costs
-// digits.
+// Everything is drawn and looked up in a space in which every light is a distant one (view/light_space.h),
+// relative to the part of it that the image's receivers and the casters' penumbrae have in common. It is made
+// in double for each frame, and only then rounded to float: neither a light that is far away nor a floor that
+// goes on to the horizon costs digits.
 //
-// Other departures. Depths are heights in that space, which are linear on the screen (the paper interpolates distances
-// and accepts the error). Triangles are dilated by a texel, so that no texel that touches a penumbra is empty
-// (towards the border of a hemicube's side by less than one). Step 1 replaces the paper's shadow map, and
-// steps 2, 3 and 8 are not in the paper.
+// Other departures. Depths are heights in that space, which are linear on the screen (the paper interpolates
+// distances and accepts the error). Triangles are dilated by a texel, so that no texel that touches a
+// penumbra is empty (towards the border of a hemicube's side by less than one). Step 1 replaces the paper's
+// shadow map, and steps 2, 3 and 8 are not in the paper.
 #pragma once
 
 #include <memory>

@@ -16,8 +16,8 @@ void fill(const gl::Functions& gl, GLenum kind, const Object& buffer, const std:
   gl.BufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), usage);
 }
 
-/// (u, v, h, 1) · weight → clip coordinates. The depth, depth_scale · h · weight / forward, is linear on planes;
-/// reversed and float, it keeps its digits where receivers are.
+/// (u, v, h, 1) · weight → clip coordinates. The depth, depth_scale · h · weight / forward, is linear on
+/// planes; reversed and float, it keeps its digits where receivers are.
 glm::dmat4 clip_matrix(const Target& target, double depth_scale) {
   const auto& [left, right, bottom, top] = target.window;
   glm::dmat4 out(0.0);

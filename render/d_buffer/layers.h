@@ -1,7 +1,8 @@
 // The textures of a D-buffer: what every texel of every target keeps.
 //
-// "Umbra and penumbra volumes" (2004), section 3.1, with an edge in place of distances. Depths are heights towards the
-// light, in units that depend on the target (DBufferView::depth_scale): 0 is lowest, greater is nearer to the light.
+// "Umbra and penumbra volumes" (2004), section 3.1, with an edge in place of distances. Depths are heights
+// towards the light, in units that depend on the target (DBufferView::depth_scale): 0 is lowest, greater is
+// nearer to the light.
 #pragma once
 
 #include "render/gl/program.h"

@@ -9,16 +9,18 @@
 // seams between texels' entries.
 //
 // How.
-//   1. Three kinds of pixels are sampled: those given by the caller, both sides of each jump, and probe pixels
-//      at even distances, which find surfaces where all entries are wrong and nothing contradicts anything.
-//   2. Each ray is compared with what the entries say of its point of the disk (seen_boundary.h). Where no ray denies
-//      the entries they stay: where they are exact, no noise of rays gets into the picture.
-//   3. Where a ray denies the entries, the neighbors on the same surface are sampled too, until none does. So errors are
-//      found up to where one pixel in two or three has a ray in the part of the disk that is wrong.
+//   1. Three kinds of pixels are sampled: those given by the caller, both sides of each jump, and probe
+//      pixels at even distances, which find surfaces where all entries are wrong and nothing contradicts
+//      anything.
+//   2. Each ray is compared with what the entries say of its point of the disk (seen_boundary.h). Where no
+//      ray denies the entries they stay: where they are exact, no noise of rays gets into the picture.
+//   3. Where a ray denies the entries, the neighbors on the same surface are sampled too, until none does. So
+//      errors are found up to where one pixel in two or three has a ray in the part of the disk that is
+//      wrong.
 //   4. The mean of the samples around a pixel takes the place of what entries say, as far as noise does not
 //      explain the difference. Neighbors are sampled at different points of the light, so that this mean has
-//      little noise (interleaved sampling, A. Keller and W. Heidrich 2001). Where there are no neighbors to average
-//      with (the picture's border, creases, leaves) the pixel itself is sampled at all points.
+//      little noise (interleaved sampling, A. Keller and W. Heidrich 2001). Where there are no neighbors to
+//      average with (the picture's border, creases, leaves) the pixel itself is sampled at all points.
 // None of this is in the 2004 paper.
 #pragma once
 
@@ -69,8 +71,8 @@ class Resampler {
   /// Puts `visibility`, one per pixel by entries, right.
   ///
   /// `always` are sampled in any case; so are both sides of every jump between neighbors on one surface, and
-  /// the neighbors of every pixel where samples deny the entries, and probe pixels. `always` must see a surface. Returns
-  /// how many were sampled. Cost O(pixels) and the samples, on all cores.
+  /// the neighbors of every pixel where samples deny the entries, and probe pixels. `always` must see a
+  /// surface. Returns how many were sampled. Cost O(pixels) and the samples, on all cores.
   std::size_t resample(const ImageSurface& image, std::span<const std::uint32_t> always,
                        const SampleVisibility& sample, std::span<float> visibility);
 
@@ -85,8 +87,8 @@ class Resampler {
   void find_between(std::uint32_t begin, std::uint32_t count, std::uint32_t apart,
                     std::vector<std::uint32_t>& out) const;
   bool is_discontinuity(std::uint32_t i, std::uint32_t j) const;
-  /// Takes the samples of `pixels`; returns the pixels to be sampled next: neighbors of those where a ray denies the
-  /// entries.
+  /// Takes the samples of `pixels`; returns the pixels to be sampled next: neighbors of those where a ray
+  /// denies the entries.
   std::vector<std::uint32_t> take(std::span<const std::uint32_t> pixels, std::span<const RaySample> samples);
   void take_sample(std::uint32_t pixel, const RaySample& sample);
   struct Mean {
@@ -99,14 +101,15 @@ class Resampler {
     /// How far apart the means are of which this is one.
     float bend = 0.0f;
   };
-  /// The mean of the values of a pixel and of sampled ones on flat ground around it. Each counts by how much of the disk
-  /// is above its horizon, and opposite pixels count together, so that a slope does not shift the mean.
+  /// The mean of the values of a pixel and of sampled ones on flat ground around it. Each counts by how much
+  /// of the disk is above its horizon, and opposite pixels count together, so that a slope does not shift the
+  /// mean.
   template <class Value>
   Mean mean_of(std::uint32_t i, const Value& value) const;
-  /// The mean of visibility by rays, or what entries say and the mean of what rays correct. Where visibility is bent, as
-  /// in a narrow penumbra, the first is wrong by the bend; where entries jump, the second by the jump, which their
-  /// corrections do as well. So the second is taken where what entries say is bent by more than twice the corrections,
-  /// if it is nearer to the pixel's own sample.
+  /// The mean of visibility by rays, or what entries say and the mean of what rays correct. Where visibility
+  /// is bent, as in a narrow penumbra, the first is wrong by the bend; where entries jump, the second by the
+  /// jump, which their corrections do as well. So the second is taken where what entries say is bent by more
+  /// than twice the corrections, if it is nearer to the pixel's own sample.
   Mean mean_sample(std::uint32_t i) const;
   bool is_denied_around(std::uint32_t i) const;
   /// By the entries; does not change while pixels are put right.
@@ -116,8 +119,9 @@ class Resampler {
   float difference(std::uint32_t i, const Mean& mean) const;
   /// How far the mean takes the place of what entries say: 0 to 1.
   float weight_of(std::uint32_t i, const Mean& mean) const;
-  /// Sixteen points are too few: there are no neighbors all round to average with, or the means differ. Leaves are left at
-  /// that, and twigs and outlines where rays deny entries beyond doubt: in a tree they would take longer than all the rest.
+  /// Sixteen points are too few: there are no neighbors all round to average with, or the means differ.
+  /// Leaves are left at that, and twigs and outlines where rays deny entries beyond doubt: in a tree they
+  /// would take longer than all the rest.
   bool is_doubtful(std::uint32_t i) const;
   /// Samples these at all points.
   void sample_thoroughly(const SampleVisibility& sample);

@@ -1,9 +1,10 @@
 // D-buffer step 8: what entries say of single points of the disk.
 //
-// In: which entries the visibility shader used for a pixel, their records, the receiver. Out: whether a point of the
-// disk is on their lit side. The boundary is followed from edge to edge as in shaders/d_buffer_boundary.glsl, whose twin
-// this is: the shader gives the area, this the shape. So a ray can contradict an entry, however small the part of the
-// disk is that they disagree about, and whatever noise a mean of rays has.
+// In: which entries the visibility shader used for a pixel, their records, the receiver. Out: whether a point
+// of the disk is on their lit side. The boundary is followed from edge to edge as in
+// shaders/d_buffer_boundary.glsl, whose twin this is: the shader gives the area, this the shape. So a ray can
+// contradict an entry, however small the part of the disk is that they disagree about, and whatever noise a
+// mean of rays has.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +24,8 @@ struct EntryUse {
   std::uint32_t code = 0;
 
   bool is_none() const { return code == 0; }
-  /// The boundary was followed past its edge; else the edge's chord alone was taken, moved to the disk's center where it
-  /// contradicts what is known of that.
+  /// The boundary was followed past its edge; else the edge's chord alone was taken, moved to the disk's
+  /// center where it contradicts what is known of that.
   bool is_followed() const { return (code & 3u) == 1u; }
   bool is_umbra() const { return (code & 4u) != 0; }
   /// It contradicts what is known of the disk's center.
@@ -35,18 +36,20 @@ struct EntryUse {
 /// A boundary as one receiver sees it on the unit disk.
 class SeenBoundary {
  public:
-  /// `records`: as in EntryGeometry; `x`: the receiver in light space; `hidden`: it does not see the disk's center.
-  /// Precondition: the use is not none.
+  /// `records`: as in EntryGeometry; `x`: the receiver in light space; `hidden`: it does not see the disk's
+  /// center. Precondition: the use is not none.
   SeenBoundary(std::span<const glm::vec4> records, EntryUse use, const Vec3& x, bool hidden);
   bool is_lit(const glm::dvec2& point) const;
 
  private:
-  /// From the edge's foot, the point of its line that is nearest to the center, past one end to where it leaves the disk.
+  /// From the edge's foot, the point of its line that is nearest to the center, past one end to where it
+  /// leaves the disk.
   struct Walk {
     std::vector<glm::dvec2> points;
     bool closed = false;
     std::uint32_t last, next;  ///< facets
-    /// Past a corner outside of the disk: the edge that comes back into it, and whether it adds to what is lit.
+    /// Past a corner outside of the disk: the edge that comes back into it, and whether it adds to what is
+    /// lit.
     std::optional<Chord> again;
     bool adds = false;
   };

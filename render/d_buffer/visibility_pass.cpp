@@ -258,7 +258,8 @@ std::vector<EntryUse> VisibilityPass::read_uses() const {
   return out;
 }
 
-/// What entries say, by points of the disk where the shader knows the area of two boundaries by their chords alone.
+/// What entries say, by points of the disk where the shader knows the area of two boundaries by their chords
+/// alone.
 float area_of(const SeenEntries& entries, float by_shader) {
   constexpr float kNoise = 0.02f;  // three times that of the points
   if (!entries.are_two()) return by_shader;
@@ -268,8 +269,8 @@ float area_of(const SeenEntries& entries, float by_shader) {
   return std::abs(lit / all - by_shader) > kNoise ? lit / all : by_shader;
 }
 
-/// What rays find otherwise is added to what entries say, whose area is exact. But where fewer points are seen than are
-/// denied, or fewer are hidden, their own share has less noise.
+/// What rays find otherwise is added to what entries say, whose area is exact. But where fewer points are
+/// seen than are denied, or fewer are hidden, their own share has less noise.
 RaySample VisibilityPass::sample_of(std::uint32_t pixel, std::span<const SeenPoints> seen,
                                     std::span<const EntryUse> uses, const EntryGeometry& geometry,
                                     float by_entries) const {

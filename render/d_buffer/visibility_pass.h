@@ -25,7 +25,8 @@
 
 namespace penumbra::detail {
 
-/// Pixels whose entries contradict what is known of the light's center, ascending. `uses`: two a pixel. Cost O(pixels).
+/// Pixels whose entries contradict what is known of the light's center, ascending. `uses`: two a pixel. Cost
+/// O(pixels).
 std::vector<std::uint32_t> uncertain_pixels(std::span<const EntryUse> uses);
 
 /// The entries that step 6 has drawn, and their records in a buffer texture.
@@ -48,8 +49,8 @@ class VisibilityPass {
 
   /// Step 1: which receivers see the light's center, by one ray each.
   void trace_center(const CircularLight& light);
-  /// Step 3: receivers as the view's shaders see them, and uploads them. With trace_center before it, finds the visibility
-  /// where no entry applies: by the center and the horizon.
+  /// Step 3: receivers as the view's shaders see them, and uploads them. With trace_center before it, finds
+  /// the visibility where no entry applies: by the center and the horizon.
   void place_receivers(const ReceiversInLight& receivers, const DBufferView& view);
   /// Step 3: which receivers read what of the only target. Call trace_center and place_receivers before.
   ReceiverGrid receiver_grid(const DBufferView& view, int size) const;
@@ -58,8 +59,8 @@ class VisibilityPass {
   /// without entries is not known yet. `grid`: as from receiver_grid, or everywhere. Does not use OpenGL.
   std::vector<glm::vec2> tiles(const DBufferView& view, const ReceiverGrid& grid,
                                const EntryGeometry& geometry, const DBufferOptions& options) const;
-  /// Visibility of every pixel. `tiles`: as from this class. The framebuffer that is bound is used; its attachments are
-  /// replaced.
+  /// Visibility of every pixel. `tiles`: as from this class. The framebuffer that is bound is used; its
+  /// attachments are replaced.
   std::vector<float> shade(const CircularLight& light, const DBufferView& view,
                            const std::vector<glm::vec2>& tiles, const DBufferLayers& layers,
                            const DrawnEntries& entries, const DBufferOptions& options);

@@ -1,21 +1,21 @@
 // The method depth-complexity: light samples that silhouettes toggle, and one ray a receiver.
 //
-// In: casters, a light, receivers, how many light samples. Out: V of each receiver, the fraction of its samples that no face
-// hides. That is what the method `reference` finds by one ray a sample, with the same samples: both agree but where a ray
-// grazes a silhouette within rounding.
+// In: casters, a light, receivers, how many light samples. Out: V of each receiver, the fraction of its
+// samples that no face hides. That is what the method `reference` finds by one ray a sample, with the same
+// samples: both agree but where a ray grazes a silhouette within rounding.
 //
 //   1. edges     the edges of the light's band that may cross the light for a tile of receivers
 //                (silhouette/collect/), and of these the silhouettes of each receiver
-//   2. counters  each silhouette, projected onto the light, changes the counters of the samples that lie beyond it as
-//                seen from a start on the light, by its jump (sample_counters.h)
-//   3. ray       one ray to a sample whose counter is lowest. Where it meets nothing all samples with that counter are
-//                visible, and no others. Where it is blocked all of them are.
+//   2. counters  each silhouette, projected onto the light, changes the counters of the samples that lie
+//                beyond it as seen from a start on the light, by its jump (sample_counters.h)
+//   3. ray       one ray to a sample whose counter is lowest. Where it meets nothing all samples with that
+//                counter are visible, and no others. Where it is blocked all of them are.
 //
-// S. Laine, T. Aila, U. Assarsson, J. Lehtinen, T. Akenine-Möller, "Soft shadow volumes for ray tracing" (2005), section 4;
-// "Casting Shadows in Real Time" (2009), section 5.3. They go over a row of samples from left to right, and need closed
-// silhouettes to the left of the light. Here the way to a sample is the segment from the start. It stays on the light, so
-// edges beside the light have no part in it. Jumps are signs of planes at the receiver, so that casters may be open, not
-// manifold or wound inconsistently.
+// S. Laine, T. Aila, U. Assarsson, J. Lehtinen, T. Akenine-Möller, "Soft shadow volumes for ray tracing"
+// (2005), section 4; "Casting Shadows in Real Time" (2009), section 5.3. They go over a row of samples from
+// left to right, and need closed silhouettes to the left of the light. Here the way to a sample is the
+// segment from the start. It stays on the light, so edges beside the light have no part in it. Jumps are
+// signs of planes at the receiver, so that casters may be open, not manifold or wound inconsistently.
 #pragma once
 
 #include <cstdint>
@@ -65,9 +65,9 @@ struct DepthComplexityResult {
   DepthComplexityCounts counts;
 };
 
-/// `edges`: of the scene, in the frame of rays. Requires a light that is no point. Cost: the band, the band edges near each tile, and for each receiver s·n for s
-/// silhouettes across the light and n samples. On all threads of `rays`; the result does not depend on their number.
-/// Throws Cancelled.
+/// `edges`: of the scene, in the frame of rays. Requires a light that is no point. Cost: the band, the band
+/// edges near each tile, and for each receiver s·n for s silhouettes across the light and n samples. On all
+/// threads of `rays`; the result does not depend on their number. Throws Cancelled.
 DepthComplexityResult depth_complexity_visibility(const Scene& scene, const RayScene& rays,
                                                   const detail::SceneEdges& edges, const LightShape& light,
                                                   const Receivers& receivers,

@@ -1,12 +1,14 @@
-// Method depth-complexity, step counters: by how many faces more or fewer than a start on the light each sample is hidden.
+// Method depth-complexity, step counters: by how many faces more or fewer than a start on the light each
+// sample is hidden.
 //
-// The number of faces between a receiver and a point of the light jumps at the receiver's silhouettes. So it differs between
-// a start p and a sample s by the jumps of the silhouettes that the segment p s crosses. A light is convex: the segment
-// stays on it, and above the receiver's horizon where both ends are.
+// The number of faces between a receiver and a point of the light jumps at the receiver's silhouettes. So it
+// differs between a start p and a sample s by the jumps of the silhouettes that the segment p s crosses. A
+// light is convex: the segment stays on it, and above the receiver's horizon where both ends are.
 //
-// The segment crosses an edge a → b where the line p s passes between a and b, and s lies beyond the line a b. On which side
-// of the line p s an end lies is computed from p, s and that end alone. Two edges that share it get the same bits, so that no
-// segment slips between them. Only a sample that lies on an edge within rounding may be counted on either side of it.
+// The segment crosses an edge a → b where the line p s passes between a and b, and s lies beyond the line a
+// b. On which side of the line p s an end lies is computed from p, s and that end alone. Two edges that share
+// it get the same bits, so that no segment slips between them. Only a sample that lies on an edge within
+// rounding may be counted on either side of it.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +44,8 @@ class SampleCounters {
   int count() const { return table_.strata.count(); }
   /// Places the samples, and sets all counters to 0.
   void begin(const SampledReceiver& receiver);
-  /// Changes the counters of the samples behind a silhouette, as seen from the start. Returns how many. Cost O(samples).
+  /// Changes the counters of the samples behind a silhouette, as seen from the start. Returns how many. Cost
+  /// O(samples).
   std::size_t toggle(const Segment& segment);
 
   /// The samples above the horizon whose counter is lowest.
@@ -64,8 +67,8 @@ class SampleCounters {
   Vec3 u_, v_;
   glm::dvec2 unit_u_, unit_v_;
   SampledReceiver receiver_{};
-  /// One entry a sample, padded to whole lanes: the place on the light, relative to the start on the unit disk, the
-  /// counter, and the height over the tangent plane. What pads is never above it.
+  /// One entry a sample, padded to whole lanes: the place on the light, relative to the start on the unit
+  /// disk, the counter, and the height over the tangent plane. What pads is never above it.
   std::vector<float> a_, b_;
   std::vector<double> x_, y_, counter_, height_;
 };

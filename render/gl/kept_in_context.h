@@ -9,8 +9,8 @@
 
 namespace penumbra::gl {
 
-/// T is made by T(Context&, const Scene&, const RayScene&). Another backend makes the context and T anew, other rays make
-/// T anew.
+/// T is made by T(Context&, const Scene&, const RayScene&). Another backend makes the context and T anew,
+/// other rays make T anew.
 template <class T>
 class KeptInContext {
  public:

@@ -56,8 +56,8 @@ class Object {
   GLuint id_ = 0;
 };
 
-/// Throws SystemError if the current context reports an error or the bound framebuffer is incomplete; std::bad_alloc where it reports
-/// that it lacks memory.
+/// Throws SystemError if the current context reports an error or the bound framebuffer is incomplete;
+/// std::bad_alloc where it reports that it lacks memory.
 void require_no_error(const Functions& gl, const char* doing);
 void require_complete_framebuffer(const Functions& gl, const char* doing);
 

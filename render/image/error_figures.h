@@ -25,7 +25,8 @@ struct ErrorFigures {
   friend bool operator==(const ErrorFigures&, const ErrorFigures&) = default;
 };
 
-/// `selected` lists the pixels to judge. Deterministic (the bootstrap's seed is fixed). Cost O(200 n). Throws Cancelled.
+/// `selected` lists the pixels to judge. Deterministic (the bootstrap's seed is fixed). Cost O(200 n). Throws
+/// Cancelled.
 ErrorFigures error_figures(std::span<const float> method, std::span<const float> reference1,
                            std::span<const float> reference2, std::span<const std::uint32_t> selected,
                            const Progress& progress = {});

@@ -34,9 +34,9 @@ struct Display {
   Background background{};
 };
 
-/// 8-bit sRGB of R G B times 2^exposure, clipped, over the background by A; width·height·3, or where the background is
-/// transparent width·height·4 with alpha, as PNG has it: colors are not multiplied by it. R G B are multiplied by A; what
-/// is seen through it is blended in linear light.
+/// 8-bit sRGB of R G B times 2^exposure, clipped, over the background by A; width·height·3, or where the
+/// background is transparent width·height·4 with alpha, as PNG has it: colors are not multiplied by it. R G B
+/// are multiplied by A; what is seen through it is blended in linear light.
 std::vector<unsigned char> encode_srgb(const Image& image, const Display& display = {});
 std::vector<unsigned char> encode_srgb(const Image& image, double exposure_stops);
 /// The same as a PNG file. Whole or not at all. Throws SystemError.

@@ -1,10 +1,12 @@
-// Method layered-attenuation, step map: the surfaces that points of the light see, and from how many of them each is seen.
+// Method layered-attenuation, step map: the surfaces that points of the light see, and from how many of them
+// each is seen.
 //
-// In: the scene, the light in the coordinates of its center, points of the light. Out: for each texel of the center's view a list of
-// layers: a height, and the number of points that see a surface there.
+// In: the scene, the light in the coordinates of its center, points of the light. Out: for each texel of the
+// center's view a list of layers: a height, and the number of points that see a surface there.
 //
-// In the map's coordinates a point d of the light sees the scene sheared: a surface at (q, h) lies at q - s d h in its view, s the
-// light's spread. So first surfaces of that view are taken back to the center's by adding s d h.
+// In the map's coordinates a point d of the light sees the scene sheared: a surface at (q, h) lies at q - s d
+// h in its view, s the light's spread. So first surfaces of that view are taken back to the center's by
+// adding s d h.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +33,8 @@ class AttenuationMap {
                  double lowest, double top, bool disk, const AttenuationOptions& options,
                  tbb::task_arena& threads);
 
-  /// The share of the points that see a surface at a height, within the tolerance times `slope` + 1; none where no point does, or
-  /// beside the map.
+  /// The share of the points that see a surface at a height, within the tolerance times `slope` + 1; none
+  /// where no point does, or beside the map.
   std::optional<double> share(const glm::dvec2& place, double height, double slope) const;
   std::size_t layers() const { return layers_; }
   TexturePicture picture() const;

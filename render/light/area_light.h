@@ -10,9 +10,9 @@ namespace penumbra {
 /// All points center + a·u + b·v with |a| ≤ half.x and |b| ≤ half.y, or the disk of radius half.x = half.y.
 /// Lengths in scene units; u and v are the disk's own (light_frame) or run along the rectangle's sides.
 ///
-/// A distant light is the disk of radius tan(angle/2) at unit distance that each receiver has before itself: the
-/// same points are the directions from any receiver towards the light. All that depends on directions alone is
-/// right for it: area fractions and the irradiance factor.
+/// A distant light is the disk of radius tan(angle/2) at unit distance that each receiver has before itself:
+/// the same points are the directions from any receiver towards the light. All that depends on directions
+/// alone is right for it: area fractions and the irradiance factor.
 struct AreaLight {
   LightFrame axes;
   /// Of a distant light -axes.w, the direction towards it.

@@ -32,8 +32,8 @@ struct Light {
   /// has one light.
   std::string name{};
   LightShape shape{};
-  /// Linear RGB, W/(m² sr) if a scene unit is a meter. Of a disk of radius 0: its intensity, W/sr; of a distant
-  /// light of angle 0: the irradiance of a surface that faces it, W/m².
+  /// Linear RGB, W/(m² sr) if a scene unit is a meter. Of a disk of radius 0: its intensity, W/sr; of a
+  /// distant light of angle 0: the irradiance of a surface that faces it, W/m².
   Vec3 radiance{10.0};
 
   bool operator==(const Light&) const = default;
@@ -42,8 +42,8 @@ struct Light {
 /// The smallest disk that holds the light; the disk itself where the light is one. Not for distant lights.
 DiskLight disk_around(const LightShape& shape);
 
-/// The irradiance of a surface that faces the light and sees all of it, for a radiance of 1: π sin²(angle/2), the
-/// solid angle of the disk weighted by the cosine. 1 at angle 0, where `radiance` is that irradiance.
+/// The irradiance of a surface that faces the light and sees all of it, for a radiance of 1: π sin²(angle/2),
+/// the solid angle of the disk weighted by the cosine. 1 at angle 0, where `radiance` is that irradiance.
 double irradiance_per_radiance(const DistantLight& light);
 
 /// True where the light is a disk of radius 0, or a distant light of angle 0.

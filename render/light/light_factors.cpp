@@ -6,7 +6,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Accuracy. A receiver whose chord is that near to the rim counts as cut: the formula for cut disks decides there.
+/// Accuracy. A receiver whose chord is that near to the rim counts as cut: the formula for cut disks decides
+/// there.
 constexpr double kClearly = 1.0 + 0x1p-40;
 
 /// a·b of each, as glm adds them up.
@@ -33,8 +34,8 @@ struct Outputs {
   std::uint8_t* is_cut;
 };
 
-/// The tangent plane leaves all of the disk, nothing of it, or cuts it: by its height over the center against its fall over
-/// the radius. A height of no number cuts.
+/// The tangent plane leaves all of the disk, nothing of it, or cuts it: by its height over the center against
+/// its fall over the radius. A height of no number cuts.
 template <class Whole>
 PENUMBRA_INLINE void factors_of(const Inputs& in, std::size_t count, double rho, const Outputs& out,
                                 const Whole& whole) {

@@ -1,8 +1,9 @@
-// What a light gives to receivers that come one after another: the irradiance factor and the area fraction above the
-// horizon of each, as light_integrals.h defines them and bit for bit as it computes them.
+// What a light gives to receivers that come one after another: the irradiance factor and the area fraction
+// above the horizon of each, as light_integrals.h defines them and bit for bit as it computes them.
 //
-// Nearly every receiver sees all of a disk or nothing of it. Then both are short formulas without branches, which are done
-// for eight receivers at a time. A receiver whose tangent plane cuts the light is left until it is asked for.
+// Nearly every receiver sees all of a disk or nothing of it. Then both are short formulas without branches,
+// which are done for eight receivers at a time. A receiver whose tangent plane cuts the light is left until
+// it is asked for.
 #pragma once
 
 #include <array>

@@ -3,8 +3,8 @@
 // from the direction of (X, Y) the integrand is (A + B cos ψ + D sin ψ) / (E - K cos ψ): an elementary
 // integral (`rim_part`).
 //
-// A distant light is seen on the axis, where the integral becomes short, and where what is of first order in a
-// small radius can be taken out of it by hand (`distant_factor`).
+// A distant light is seen on the axis, where the integral becomes short, and where what is of first order in
+// a small radius can be taken out of it by hand (`distant_factor`).
 #include "render/light/light_integrals.h"
 
 #include <algorithm>
@@ -65,8 +65,9 @@ double arc_less_chord(double t) {
          (2.0 / 3 - q * (4.0 / 5 - q * (6.0 / 7 - q * (8.0 / 9 - q * (10.0 / 11 - q * (12.0 / 13))))));
 }
 
-/// With δ the horizon's chord, c² = 1 + ρ²δ² and t = ρ√(1-δ²)/c: the arc gives (ρ³δ acos(-δ)/c - t)/(1 + ρ²), the
-/// chord atan t, where 1 + ρ² = c²(1 + t²). Both are of the order of ρ and their sum of ρ³, hence the other order.
+/// With δ the horizon's chord, c² = 1 + ρ²δ² and t = ρ√(1-δ²)/c: the arc gives (ρ³δ acos(-δ)/c - t)/(1 + ρ²),
+/// the chord atan t, where 1 + ρ² = c²(1 + t²). Both are of the order of ρ and their sum of ρ³, hence the
+/// other order.
 double distant_factor(const Vec3& n, double rho) {
   if (rho == 0.0) return std::max(0.0, -n.z);
   const double delta = chord_of_plane(n, {0.0, 0.0, 1.0}, rho).delta, all = 1.0 + rho * rho;

@@ -8,8 +8,8 @@ namespace penumbra {
 /// F at x with unit normal n: the integral of cos θ cos θ' / d² over the part of the light above the tangent
 /// plane, steradians weighted by the receiver's cosine (π times the form factor). Lambert's boundary integral
 /// of the clipped disk (arc and chord) or polygon. 0 behind the light or wholly below the horizon. At radius
-/// 0 the point light's cos θ cos θ' / d², so that a radiance is read as an intensity; of a distant light of angle
-/// 0 cos θ, so that it is read as an irradiance.
+/// 0 the point light's cos θ cos θ' / d², so that a radiance is read as an intensity; of a distant light of
+/// angle 0 cos θ, so that it is read as an irradiance.
 double irradiance_factor(const AreaLight& light, const Vec3& x, const Vec3& n);
 double disk_irradiance_factor(const DiskLight& light, const Vec3& x, const Vec3& n);
 

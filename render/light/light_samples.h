@@ -1,7 +1,8 @@
-// The points of a light at which a receiver looks: jittered strata of equal area, the same for every method that samples.
+// The points of a light at which a receiver looks: jittered strata of equal area, the same for every method
+// that samples.
 //
-// In: a stream of random numbers (disk_samples.h) and how many samples. Out: points of the unit disk, by the concentric map
-// of Shirley and Chiu (1997), or of the square [-1, 1]², sixteen at a time.
+// In: a stream of random numbers (disk_samples.h) and how many samples. Out: points of the unit disk, by the
+// concentric map of Shirley and Chiu (1997), or of the square [-1, 1]², sixteen at a time.
 #pragma once
 
 #include <vector>
@@ -29,8 +30,8 @@ struct StratumTable {
   std::vector<float> columns, rows;
 };
 
-/// Samples first to first + 15 of a stream: on the unit disk, or in the square. For loops that are compiled for several
-/// instruction sets.
+/// Samples first to first + 15 of a stream: on the unit disk, or in the square. For loops that are compiled
+/// for several instruction sets.
 PENUMBRA_INLINE void place_samples(const StratumTable& table, bool disk, std::uint32_t key, int first,
                                    float* a, float* b) {
   const float per_column = 1.0f / static_cast<float>(table.strata.columns);

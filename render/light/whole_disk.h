@@ -8,8 +8,8 @@
 
 namespace penumbra::detail {
 
-/// Lambert's integral over the whole rim of the disk of radius rho around the origin: what a part of the rim comes to
-/// (light_integrals.cpp) over a full turn, without its angles.
+/// Lambert's integral over the whole rim of the disk of radius rho around the origin: what a part of the rim
+/// comes to (light_integrals.cpp) over a full turn, without its angles.
 PENUMBRA_INLINE double whole_rim(double x, double y, double z, double nx, double ny, double nz, double rho) {
   const double away2 = x * x + y * y, away = std::sqrt(away2);
   const double e = away2 + z * z + rho * rho, k = 2.0 * rho * away;

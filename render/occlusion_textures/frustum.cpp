@@ -16,8 +16,8 @@ double depth_before(const Vec3& p, const LightProjection& light) {
   return light.weight(p) / light.nearness();
 }
 
-/// 1/d for the frustum through the light's border that contains every point. Every frustum of a distant light, which
-/// has no border, is orthographic.
+/// 1/d for the frustum through the light's border that contains every point. Every frustum of a distant
+/// light, which has no border, is orthographic.
 double offset_to_contain(const std::vector<CasterExtent>& casters, const SliceSpace& space) {
   if (space.light.distant) return 0.0;
   const LightProjection& light = space.projection;

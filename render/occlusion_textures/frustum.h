@@ -1,14 +1,14 @@
 // Occlusion textures, step 1: from where the casters are seen, and into which slices they fall.
 //
-// In: casters, receivers, light, options. Out: a frustum with slices of equal thickness. "Occlusion textures" (2006),
-// section 3.4 and figure 5. The center of projection lies d behind the light, and a point (x, y, z) of the
-// light's frame is seen at q = (x, y) / (1 + z/d): where its line of sight meets the light's plane. The
-// frustum through the light's border is then the light itself in q, for every d, and it contains a point when
-// |q| ≤ half the light's extents, which gives the largest d that contains them all.
+// In: casters, receivers, light, options. Out: a frustum with slices of equal thickness. "Occlusion textures"
+// (2006), section 3.4 and figure 5. The center of projection lies d behind the light, and a point (x, y, z)
+// of the light's frame is seen at q = (x, y) / (1 + z/d): where its line of sight meets the light's plane.
+// The frustum through the light's border is then the light itself in q, for every d, and it contains a point
+// when |q| ≤ half the light's extents, which gives the largest d that contains them all.
 //
-// The light may be far away, or infinitely far. So all coordinates are relative to an origin near the receivers
-// (render/light/light_projection.h), where the same view is ((x, y) + slide · z) / (1 + narrowing · z), but for a
-// factor. Only the part of the casters counts that may lie between a receiver and the light.
+// The light may be far away, or infinitely far. So all coordinates are relative to an origin near the
+// receivers (render/light/light_projection.h), where the same view is ((x, y) + slide · z) / (1 + narrowing ·
+// z), but for a factor. Only the part of the casters counts that may lie between a receiver and the light.
 #pragma once
 
 #include <array>
@@ -39,14 +39,15 @@ struct DepthRange {
   void add(const DepthRange& other);
 };
 
-/// What receivers may see before the light: with (q, h) as of LightProjection, q between low - spread · (h - bottom)
-/// and high + spread · (h - bottom), h above bottom.
+/// What receivers may see before the light: with (q, h) as of LightProjection, q between low - spread · (h -
+/// bottom) and high + spread · (h - bottom), h above bottom.
 struct SeenRegion {
   glm::dvec2 low{1e300}, high{-1e300};
   double bottom = 1e300;
   bool empty() const { return !(low.x <= high.x); }
 };
-/// `places`: local coordinates of receivers; those that are not numbers or not in front of the light do not count.
+/// `places`: local coordinates of receivers; those that are not numbers or not in front of the light do not
+/// count.
 SeenRegion region_of(std::span<const Vec3> places, const SliceSpace& space);
 
 /// In local coordinates.

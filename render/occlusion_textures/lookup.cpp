@@ -21,7 +21,8 @@ double area_left_of(double x) {
   return std::numbers::pi / 2.0 + std::asin(x) + x * std::sqrt(1.0 - x * x);
 }
 
-/// What the slices seen so far leave of the light, receiver by receiver. Shares are of what is above the horizon.
+/// What the slices seen so far leave of the light, receiver by receiver. Shares are of what is above the
+/// horizon.
 PENUMBRA_VECTOR_CLONES
 void hide(OcclusionCombine rule, const double* __restrict share, const double* above, std::size_t count,
           double* __restrict left) {
@@ -60,7 +61,8 @@ struct SeenLights {
 /// (OcclusionTextures.ASidePlaneSeesItsHalfOfTheSun).
 constexpr double kBias = 0.75;
 
-/// Each is at least a texel wide: a smaller one would see single texels. What of it is too low moves up and shrinks.
+/// Each is at least a texel wide: a smaller one would see single texels. What of it is too low moves up and
+/// shrinks.
 PENUMBRA_VECTOR_CLONES
 void project_light(const SliceReceivers& __restrict from, const Plane& plane, const LightExtent& light,
                    SeenLights& __restrict out) {
@@ -71,7 +73,8 @@ void project_light(const SliceReceivers& __restrict from, const Plane& plane, co
     const double u = from.toward_u[i] * way, v = from.toward_v[i] * way;
     const double half_u = std::max(spread_u * way, 0.5 * texel_u),
                  half_v = std::max(spread_v * way, 0.5 * texel_v);
-    // Along the direction up the horizon: half a texel, half the light, and the light's middle above the horizon.
+    // Along the direction up the horizon: half a texel, half the light, and the light's middle above the
+    // horizon.
     const double up_u = std::abs(from.up_u[i]), up_v = std::abs(from.up_v[i]);
     const double texel = 0.5 * (up_u * texel_u + up_v * texel_v),
                  half = reach * (up_u * half_u + up_v * half_v);
@@ -196,8 +199,8 @@ void SliceReceivers::add(const Vec3& p, const Vec3& normal, const LightProjectio
   per_weight[count] = 1.0 / light.weight(p);
   toward_u[count] = light.tilt().x - light.nearness() * p.x;
   toward_v[count] = light.tilt().y - light.nearness() * p.y;
-  // A horizon along the plane is far below, and every way along the plane is up it: a vector of length 0 would give the
-  // light no extent that way, and project_light divides by that.
+  // A horizon along the plane is far below, and every way along the plane is up it: a vector of length 0
+  // would give the light no extent that way, and project_light divides by that.
   const double along = std::hypot(normal.x, normal.y);
   up_u[count] = along > 0.0 ? normal.x / along : 1.0;
   up_v[count] = along > 0.0 ? normal.y / along : 0.0;

@@ -1,13 +1,13 @@
 // Occlusion textures, step 5: how much of the light the slices leave, receiver by receiver.
 //
-// In: prefiltered slices, receivers. Out: V. "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4. Seen from a
-// receiver the light covers one box on a slice's plane. With Δ the distance of receiver and plane over the receiver's
-// weight (render/light/light_projection.h), its half extents are spread · Δ, and its middle is (u, v) + toward · Δ,
-// toward being the way from the receiver to the light's center for a step of 1 towards the light. What of the box is
-// below the receiver's horizon, or above it by less than texels can tell, is left out: there lies the surface that the
-// receiver is on. The mean of the slice's texture over that
-// box is the part that the slice hides. Slices that end behind the receiver do not count. The one that ends
-// just before it fades in with the receiver's distance to its plane, from 0 to 1 over one slice.
+// In: prefiltered slices, receivers. Out: V. "Occlusion textures" (2006), sections 3.1, 3.3 and 3.4. Seen
+// from a receiver the light covers one box on a slice's plane. With Δ the distance of receiver and plane over
+// the receiver's weight (render/light/light_projection.h), its half extents are spread · Δ, and its middle is
+// (u, v) + toward · Δ, toward being the way from the receiver to the light's center for a step of 1 towards
+// the light. What of the box is below the receiver's horizon, or above it by less than texels can tell, is
+// left out: there lies the surface that the receiver is on. The mean of the slice's texture over that box is
+// the part that the slice hides. Slices that end behind the receiver do not count. The one that ends just
+// before it fades in with the receiver's distance to its plane, from 0 to 1 over one slice.
 #pragma once
 
 #include <array>
@@ -34,10 +34,11 @@ struct SliceReceivers {
   static constexpr std::size_t kMost = TexelBoxes::kMost;
   std::size_t count = 0;
   alignas(64) std::array<double, kMost> u, v, w;
-  /// 1 over the weight; the way to the light's center for a step of 1 towards the light's plane, times the weight.
+  /// 1 over the weight; the way to the light's center for a step of 1 towards the light's plane, times the
+  /// weight.
   alignas(64) std::array<double, kMost> per_weight, toward_u, toward_v;
-  /// The horizon where it crosses a plane w = const: the unit vector up it along the plane, and how far it climbs along
-  /// that for a step of 1 towards the light.
+  /// The horizon where it crosses a plane w = const: the unit vector up it along the plane, and how far it
+  /// climbs along that for a step of 1 towards the light.
   alignas(64) std::array<double, kMost> up_u, up_v, climb;
   /// Fraction of the light above the horizon.
   alignas(64) std::array<double, kMost> above;

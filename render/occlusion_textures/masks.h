@@ -55,7 +55,8 @@ class OcclusionMasks {
  public:
   explicit OcclusionMasks(const gl::Functions& gl);
 
-  /// `drawings`: one a caster. Adds the stages slices and read_back to the clock. Cost O(faces + texels · slices).
+  /// `drawings`: one a caster. Adds the stages slices and read_back to the clock. Cost O(faces + texels ·
+  /// slices).
   std::vector<SliceTexels> draw(const MaskGeometry& casters, const std::vector<CasterDrawing>& drawings,
                                 const OcclusionOptions& options, StageClock& clock);
 

@@ -95,7 +95,8 @@ OcclusionTextures::Impl::Placed OcclusionTextures::Impl::place(const Receivers& 
   return out;
 }
 
-/// A floor may go on to anywhere: of what does not cast no more counts than twice the depth at which a shadow is seen.
+/// A floor may go on to anywhere: of what does not cast no more counts than twice the depth at which a shadow
+/// is seen.
 detail::DepthRange OcclusionTextures::Impl::range_to_slice(const std::vector<detail::CasterExtent>& extents,
                                                            const detail::SeenRegion& region,
                                                            const Placed& receivers,

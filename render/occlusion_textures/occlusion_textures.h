@@ -1,8 +1,8 @@
 // Occlusion textures: the scene x-rayed in slices parallel to the light, prefiltered, and looked up once a
 // slice and pixel.
 //
-// In: the scene's casters, surface points, a light: a disk, a rectangle or a distant light. Out: visibility V of
-// every surface point. E. Eisemann and X. Décoret, "Plausible image based soft shadows using occlusion
+// In: the scene's casters, surface points, a light: a disk, a rectangle or a distant light. Out: visibility V
+// of every surface point. E. Eisemann and X. Décoret, "Plausible image based soft shadows using occlusion
 // textures" (2006). The cost depends neither on the light's size nor, but for drawing them once, on the
 // casters. The steps of a frame, in order, with the stage of --stats that they are timed as:
 //
@@ -99,8 +99,8 @@ struct OcclusionOptions {
   SliceCoverage coverage = SliceCoverage::kBinary;
   SliceFaces faces = SliceFaces::kFront;
   /// Distance of the center of projection behind the light, scene units, > 0; infinity is orthographic;
-  /// nothing: as far as the frustum through the light's border contains the casters. Under a distant light all are
-  /// orthographic.
+  /// nothing: as far as the frustum through the light's border contains the casters. Under a distant light
+  /// all are orthographic.
   std::optional<double> cop_offset = {};
 };
 
@@ -116,13 +116,14 @@ struct OcclusionFrame {
 
 class OcclusionTextures {
  public:
-  /// `context`, `scene` and `rays` must outlive this; the context is made current by each call. Of `rays` only the
-  /// threads are used.
+  /// `context`, `scene` and `rays` must outlive this; the context is made current by each call. Of `rays`
+  /// only the threads are used.
   OcclusionTextures(gl::Context& context, const Scene& scene, const RayScene& rays);
   ~OcclusionTextures();
   /// Visibility of receivers that are a picture's pixels and have normals, under a light that has an extent.
-  /// Everything is made anew: slices, prefilters, lookups. Nothing behind the light's plane casts. Throws UsageError for options outside their range,
-  /// SystemError where OpenGL fails, Cancelled. Cost O(faces + texels · slices + pixels · slices).
+  /// Everything is made anew: slices, prefilters, lookups. Nothing behind the light's plane casts. Throws
+  /// UsageError for options outside their range, SystemError where OpenGL fails, Cancelled. Cost O(faces +
+  /// texels · slices + pixels · slices).
   OcclusionFrame render(const AreaLight& light, const Receivers& surface, const OcclusionOptions& options,
                         const Progress& progress = {});
 

@@ -3,15 +3,16 @@
 // In: casters, a light, receivers. Out: V of each receiver, by a shadow map of the light's center alone.
 //
 //   1. map     what the center sees first (center_view/shadow_map.h)
-//   2. search  samples of the map in the window that the light, seen from the receiver, covers of the plane of the highest
-//              caster. The mean depth of those between the receiver and the light is that of the blocker.
-//   3. filter  samples of the map in the window that the light covers of the blocker's plane. The share of them that lies
-//              between the receiver and the light is hidden.
+//   2. search  samples of the map in the window that the light, seen from the receiver, covers of the plane
+//              of the highest caster. The mean depth of those between the receiver and the light is that of
+//              the blocker.
+//   3. filter  samples of the map in the window that the light covers of the blocker's plane. The share of
+//              them that lies between the receiver and the light is hidden.
 //
-// R. Fernando, "Percentage-closer soft shadows" (2005); "Casting Shadows in Real Time" (2009), section 5.2.2. In the coordinates
-// of a LightProjection the width of the second window is spread · (height of the blocker - height of the receiver). That is
-// the course's w_light (z - z_avg) / z_avg, taken to the map. A receiver's plane as bias: J. Isidoro, "Shadow mapping: GPU-based
-// tips and techniques" (2006).
+// R. Fernando, "Percentage-closer soft shadows" (2005); "Casting Shadows in Real Time" (2009), section 5.2.2.
+// In the coordinates of a LightProjection the width of the second window is spread · (height of the blocker -
+// height of the receiver). That is the course's w_light (z - z_avg) / z_avg, taken to the map. A receiver's
+// plane as bias: J. Isidoro, "Shadow mapping: GPU-based tips and techniques" (2006).
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -39,8 +40,8 @@ struct PcssOptions {
   bool receiver_plane = true;
 };
 
-/// Requires a light that is no point. The horizon is a factor of its own. Cost O(faces + texels), and O(samples) a
-/// receiver. On all threads; the result does not depend on their number. Throws Cancelled.
+/// Requires a light that is no point. The horizon is a factor of its own. Cost O(faces + texels), and
+/// O(samples) a receiver. On all threads; the result does not depend on their number. Throws Cancelled.
 MethodResult pcss_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
                              const PcssOptions& options, bool keep_textures, tbb::task_arena& threads,
                              const Progress& progress);

@@ -1,9 +1,9 @@
 // Method penumbra-maps, step penumbra: how much light the first surface gets, outside of hard shadows.
 //
-// Over a point at the height h_e a light of radius r (of spread, in the map's coordinates) makes a cone: at the height h it is
-// r (h_e - h) wide. Cones over an edge's points, and the sheets between them, together hold what is that near to the edge. With
-// ρ the distance of a texel from the edge, its first surface at the height h gets the share ρ / (r (h_e - h)). Of several edges the
-// least counts.
+// Over a point at the height h_e a light of radius r (of spread, in the map's coordinates) makes a cone: at
+// the height h it is r (h_e - h) wide. Cones over an edge's points, and the sheets between them, together
+// hold what is that near to the edge. With ρ the distance of a texel from the edge, its first surface at the
+// height h gets the share ρ / (r (h_e - h)). Of several edges the least counts.
 #pragma once
 
 #include <atomic>
@@ -17,8 +17,8 @@ namespace penumbra::detail {
 
 class PenumbraMap {
  public:
-  /// `surfaces`: the map of first surfaces, whose texels it has. `lowest`: no surface is lower. Cost O(texels near edges),
-  /// on all threads of the arena.
+  /// `surfaces`: the map of first surfaces, whose texels it has. `lowest`: no surface is lower. Cost O(texels
+  /// near edges), on all threads of the arena.
   PenumbraMap(const ShadowMap& surfaces, const std::vector<MapEdge>& edges, double radius, double lowest,
               tbb::task_arena& threads);
 

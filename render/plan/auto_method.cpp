@@ -103,8 +103,9 @@ class PlannedMethod : public Method {
               .groups = groups});
   }
 
-  /// The scene without these objects' shadows, or one with more that is there already: what is made once is not made again. While a
-  /// light moves they may be others in every frame: where they have been often, all casters are kept.
+  /// The scene without these objects' shadows, or one with more that is there already: what is made once is
+  /// not made again. While a light moves they may be others in every frame: where they have been often, all
+  /// casters are kept.
   ReducedScene& without(const std::vector<std::size_t>& left_out) {
     constexpr std::size_t kMost = 8;
     if (const auto same = reduced_.find(left_out); same != reduced_.end()) return *same->second;

@@ -1,4 +1,5 @@
-// Planner, step choose: the methods that may be run for a light, with their options, and what the model says of each.
+// Planner, step choose: the methods that may be run for a light, with their options, and what the model says
+// of each.
 #pragma once
 
 #include <string>
@@ -15,8 +16,8 @@ struct Candidate {
   double milliseconds, error;
 };
 
-/// In the order in which they are preferred at equal time: with as many rays as the error asks for, and with fewer where
-/// time is limited. Empty where the request's effects leave none.
+/// In the order in which they are preferred at equal time: with as many rays as the error asks for, and with
+/// fewer where time is limited. Empty where the request's effects leave none.
 std::vector<Candidate> candidates(const LightFacts& facts, const PlanRequest& request);
 
 }  // namespace penumbra::detail

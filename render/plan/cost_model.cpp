@@ -114,8 +114,8 @@ Cost cost_of_silhouette(const LightFacts& facts, bool merges) {
 Cost cost_of_rays(const LightFacts& facts, int samples, int areas_up_to) {
   const CasterTotals casters = totals_of_reaching(facts);
   const SampledFacts& s = facts.sampled;
-  // Those that certificates leave open: a part of the penumbra, and of other receivers before which edges lie. Of these some
-  // have few edges, and areas.
+  // Those that certificates leave open: a part of the penumbra, and of other receivers before which edges
+  // lie. Of these some have few edges, and areas.
   const auto open = [&](const SampledPart& part, double share) {
     const Few few = few_of(part, areas_up_to);
     return part.share * share *

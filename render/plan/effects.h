@@ -15,13 +15,15 @@ enum class EffectChoice {
 };
 
 struct Effects {
-  /// Off: nothing casts a shadow, no ray is traced. On: shadows are looked for where it is proved that there are none, too.
+  /// Off: nothing casts a shadow, no ray is traced. On: shadows are looked for where it is proved that there
+  /// are none, too.
   EffectChoice shadows = EffectChoice::kPlanned;
   /// Off: hard shadows, one ray a receiver. On: penumbrae however narrow; a point light has none.
   EffectChoice penumbra = EffectChoice::kPlanned;
   /// Casters that reach no receiver are left out. On: however few faces they have.
   EffectChoice culling = EffectChoice::kPlanned;
-  /// Receivers that no edge can divide the light for are certified. Off: by no method; rays are traced everywhere.
+  /// Receivers that no edge can divide the light for are certified. Off: by no method; rays are traced
+  /// everywhere.
   EffectChoice certificates = EffectChoice::kPlanned;
   /// Areas between edges are integrated. On: at all receivers. Off: at none.
   EffectChoice areas = EffectChoice::kPlanned;

@@ -8,8 +8,9 @@
 
 namespace penumbra::detail {
 
-/// `objects`: a scene's, lights left out; `rays` are theirs. `boxes` are the receivers'. Casters are taken by their boxes, too.
-/// Cost: some hundred thousand operations, and for each caster a walk down the boxes of receivers. On the threads of `rays`.
+/// `objects`: a scene's, lights left out; `rays` are theirs. `boxes` are the receivers'. Casters are taken by
+/// their boxes, too. Cost: some hundred thousand operations, and for each caster a walk down the boxes of
+/// receivers. On the threads of `rays`.
 LightFacts measure_light(const Scene& objects, const RayScene& rays, const LightShape& light,
                          const Receivers& receivers, const ReceiverBoxes& boxes, const PlanRequest& request);
 

@@ -10,8 +10,8 @@ namespace {
 
 /// Relative to the sizes of what is summed. Roundings are some 2^-50 of these.
 constexpr double kFarAboveRounding = 0x1p-36;
-/// Receivers that are nearer to the light's plane, relative to their distance from its center, are not looked at: their depth
-/// would have lost ten bits, and the slopes of the sides with it.
+/// Receivers that are nearer to the light's plane, relative to their distance from its center, are not looked
+/// at: their depth would have lost ten bits, and the slopes of the sides with it.
 constexpr double kLeastDepth = 0x1p-10;
 
 double largest(const Vec3& v) {

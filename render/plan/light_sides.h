@@ -1,16 +1,17 @@
-// Planes that have a light and receivers on one side, and a caster on the other: proofs that the caster hides nothing.
+// Planes that have a light and receivers on one side, and a caster on the other: proofs that the caster hides
+// nothing.
 //
-// Let R be a box of receivers, D the light's disk and B a caster's box. Where a plane has conv(R ∪ D) on one side and B on the
-// other, no segment from a receiver to the light meets B. Tried are
+// Let R be a box of receivers, D the light's disk and B a caster's box. Where a plane has conv(R ∪ D) on one
+// side and B on the other, no segment from a receiver to the light meets B. Tried are
 //
-//   sixteen sides    n = d - s w with d a direction in the light's plane, w its normal, z = w·(p - c) the depth before it:
-//                    n·(p - c) ≤ r on the disk, and on R with s = max over R of (d·(p - c) - r) / z. Of a distant light of
-//                    tangent t: n = d + t w, n·p ≤ max over R.
+//   sixteen sides    n = d - s w with d a direction in the light's plane, w its normal, z = w·(p - c) the
+//                    depth before it: n·(p - c) ≤ r on the disk, and on R with s = max over R of (d·(p - c) -
+//                    r) / z. Of a distant light of tangent t: n = d + t w, n·p ≤ max over R.
 //   behind           w·p ≤ max over R: what lies farther from the light than all receivers.
 //   the axes         ± x, y, z.
 //
-// Sums are in double with a margin far above their rounding: a caster that is left out is strictly apart. Rectangles are
-// taken by the smallest disk around them.
+// Sums are in double with a margin far above their rounding: a caster that is left out is strictly apart.
+// Rectangles are taken by the smallest disk around them.
 #pragma once
 
 #include <array>
@@ -26,11 +27,11 @@ class LightSides {
 
   /// None of the box is in front of the light's plane.
   bool is_behind(const Bounds& box) const;
-  /// No receiver of the box sees any of the light: it lies behind the light's plane or, where `horizon` and it has normals,
-  /// faces away from all of the light.
+  /// No receiver of the box sees any of the light: it lies behind the light's plane or, where `horizon` and
+  /// it has normals, faces away from all of the light.
   bool is_dark(const ReceiverBox& box, bool horizon) const;
-  /// No segment from a point of the receivers' box to a point of the light meets the caster's box. Only for points in front
-  /// of the light's plane; false where some are not clearly so. Cost: some hundred flops.
+  /// No segment from a point of the receivers' box to a point of the light meets the caster's box. Only for
+  /// points in front of the light's plane; false where some are not clearly so. Cost: some hundred flops.
   bool separates(const Bounds& receivers, const Bounds& caster) const;
 
  private:

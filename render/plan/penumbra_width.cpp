@@ -59,7 +59,8 @@ class Widths {
     return width;
   }
 
-  /// 1 / cos of the angle between a receiver's normal and its way to the light; 0 where it sees none of the light.
+  /// 1 / cos of the angle between a receiver's normal and its way to the light; 0 where it sees none of the
+  /// light.
   double inclination(std::uint32_t i) const {
     const Vec3 way = way_to_center(light_, receivers_.points[i]), n = receivers_.normals[i];
     const double height = glm::dot(n, way), fall = light_.radius * glm::length(glm::cross(n, normal_));

@@ -114,7 +114,8 @@ void finish_hard(LightPlan& plan, Decision why) {
   finish(plan, LightPlan::Action::kMethod, std::move(why));
 }
 
-/// Notes which casters reach no receiver, and leaves them out where that is worth it. Returns whether any reaches one.
+/// Notes which casters reach no receiver, and leaves them out where that is worth it. Returns whether any
+/// reaches one.
 bool leave_out(LightPlan& plan, const LightFacts& facts, EffectChoice wish) {
   const bool worth =
       wish == EffectChoice::kOn || (wish == EffectChoice::kPlanned && is_worth_leaving_out(facts));

@@ -4,9 +4,9 @@
 //   make_plan       LightFacts, PlanRequest → LightPlan           (here)
 //   the method auto does what the plan says                        (auto_method.h)
 //
-// What a plan leaves out is left out by a certificate: a proof that no receiver's visibility changes. What it chooses, it
-// chooses by a model of times and errors (cost_model.h), whose constants were fitted to measurements. The plan depends
-// on its arguments alone: the same picture has the same plan on every machine.
+// What a plan leaves out is left out by a certificate: a proof that no receiver's visibility changes. What it
+// chooses, it chooses by a model of times and errors (cost_model.h), whose constants were fitted to
+// measurements. The plan depends on its arguments alone: the same picture has the same plan on every machine.
 #pragma once
 
 #include <cstddef>
@@ -43,15 +43,16 @@ struct CasterFacts {
 struct SampledPart {
   /// Their share of the receivers.
   double share = 0.0;
-  /// Means of what lies before the light as one of these sees it: silhouette edges; the same where fine faces are merged;
-  /// the length of all these edges, light radii;
-  /// boxes of faces that the ray to the light's center meets, up to the first face that it hits.
+  /// Means of what lies before the light as one of these sees it: silhouette edges; the same where fine faces
+  /// are merged; the length of all these edges, light radii; boxes of faces that the ray to the light's
+  /// center meets, up to the first face that it hits.
   double edges = 0.0, merged_edges = 0.0, edge_length = 0.0, boxes = 0.0;
   /// The silhouette edges before each that was looked at, ascending.
   std::vector<double> edges_each{};
 };
 
-/// Two independent estimates of V by so many rays each, at some receivers in penumbra: their difference tells their error.
+/// Two independent estimates of V by so many rays each, at some receivers in penumbra: their difference tells
+/// their error.
 struct RayPilot {
   struct Receiver {
     /// How many of the receivers that were looked at it stands for.
@@ -67,15 +68,16 @@ struct RayPilot {
   std::vector<Receiver> each{};
 };
 
-/// Of receivers chosen evenly among those that the light reaches, told apart by 16 rays each. Estimates, the same in every
-/// run.
+/// Of receivers chosen evenly among those that the light reaches, told apart by 16 rays each. Estimates, the
+/// same in every run.
 struct SampledFacts {
   std::size_t receivers = 0;
   /// Of the casters that may reach: how many edges can be a silhouette for some receiver (the band).
   double band_edges = 0.0;
   SampledPart lit{}, penumbra{}, hidden{};
-  /// Over the penumbra: the mean v of O (1 - O), so that the squared error of n rays by chance is v / n; and b, so that
-  /// b / n^(3/2) is that of n stratified rays, many of which fall into strata that no boundary crosses.
+  /// Over the penumbra: the mean v of O (1 - O), so that the squared error of n rays by chance is v / n; and
+  /// b, so that b / n^(3/2) is that of n stratified rays, many of which fall into strata that no boundary
+  /// crosses.
   double variance = 0.0, boundary = 0.0;
   /// One with few rays, and where rays are likely to be chosen one with about as many as the error asks for.
   std::vector<RayPilot> pilots{};
@@ -86,11 +88,12 @@ struct SampledFacts {
 /// What is known of one light before anything is computed for it.
 struct LightFacts {
   bool is_point = false, is_rectangle = false;
-  /// Receivers that are present. Of these, those in groups of neighbors that lie behind the light's plane or face away from
-  /// all of it: they see none of it. As many as there are where no receiver at all sees any of it.
+  /// Receivers that are present. Of these, those in groups of neighbors that lie behind the light's plane or
+  /// face away from all of it: they see none of it. As many as there are where no receiver at all sees any of
+  /// it.
   std::size_t receivers = 0, dark = 0;
-  /// The widest penumbra in distances between pixels, at most (penumbra_width.h); measured where PlanRequest::hard_below asks for
-  /// it, else infinite.
+  /// The widest penumbra in distances between pixels, at most (penumbra_width.h); measured where
+  /// PlanRequest::hard_below asks for it, else infinite.
   double widest_penumbra = std::numeric_limits<double>::infinity();
   /// The scene's objects that cast, in their order.
   std::vector<CasterFacts> casters{};
@@ -100,8 +103,8 @@ struct LightFacts {
 struct PlanRequest {
   /// RMSE of V over the penumbra.
   double max_error = 0.01;
-  /// Milliseconds by the model; where the error cannot be kept in it, the most accurate method that can keep the time is
-  /// chosen. 0: no limit.
+  /// Milliseconds by the model; where the error cannot be kept in it, the most accurate method that can keep
+  /// the time is chosen. 0: no limit.
   double max_ms = 0.0;
   /// Pixels: a penumbra that is nowhere as wide is drawn as a hard shadow, whatever the error. 0: none is.
   double hard_below = 0.0;
@@ -109,7 +112,8 @@ struct PlanRequest {
   bool with_unoccluded = false;
   /// The hierarchies that a method makes once are used for so many frames.
   int frames = 1;
-  /// How many times as fast this machine is as that of the model's fit. Only max_ms and the times that are said depend on it.
+  /// How many times as fast this machine is as that of the model's fit. Only max_ms and the times that are
+  /// said depend on it.
   double speed = 1.0;
   Effects effects{};
 };
@@ -127,8 +131,8 @@ struct LightPlan {
   /// For kMethod: its name and options.
   std::string method{};
   OptionValues options{};
-  /// Objects of the scene that cast no shadow here, ascending: left out of what the method is made for. Only where that halves
-  /// the faces: what is made once is else shared with other lights.
+  /// Objects of the scene that cast no shadow here, ascending: left out of what the method is made for. Only
+  /// where that halves the faces: what is made once is else shared with other lights.
   std::vector<std::size_t> left_out{};
   /// For kMethod, by the model: milliseconds on the machine of the fit, and RMSE of V over the penumbra.
   double milliseconds = 0.0, error = 0.0;
@@ -137,7 +141,8 @@ struct LightPlan {
   LightFacts facts{};
 };
 
-/// Cost O(casters). Throws UsageError for a max_error or speed that is not above 0, and for effects that leave no method.
+/// Cost O(casters). Throws UsageError for a max_error or speed that is not above 0, and for effects that
+/// leave no method.
 LightPlan make_plan(const LightFacts& facts, const PlanRequest& request);
 
 }  // namespace penumbra

@@ -25,9 +25,9 @@ class ReceiverBoxes {
     groups_.for_each(order_[i], visit);
   }
 
-  /// Goes down the tree. `passes(box)` tells whether all receivers of a box are done with; what does not pass is looked
-  /// into. Calls `visit(index)` for each receiver that is left; true ends the walk. Returns whether one did.
-  /// `receivers`: those of which this was made.
+  /// Goes down the tree. `passes(box)` tells whether all receivers of a box are done with; what does not pass
+  /// is looked into. Calls `visit(index)` for each receiver that is left; true ends the walk. Returns whether
+  /// one did. `receivers`: those of which this was made.
   template <class Passes, class Visit>
   bool find(const Receivers& receivers, const Passes& passes, const Visit& visit) const {
     return !levels_.empty() && find_below(receivers, levels_.size() - 1, 0, passes, visit);

@@ -63,7 +63,8 @@ bool is_inside(const Bounds& box, const Vec3& p) {
          glm::all(glm::lessThanEqual(p, box.high + margin));
 }
 
-/// The point of the ray nearest to `distance` that lies in the box; one close to both where the ray misses it.
+/// The point of the ray nearest to `distance` that lies in the box; one close to both where the ray misses
+/// it.
 Vec3 point_in_box(const Bounds& box, const Vec3& origin, const Vec3& direction, double distance) {
   double enter = -kInfinity, leave = kInfinity;
   for (int k = 0; k < 3; ++k) {
@@ -79,8 +80,8 @@ Vec3 point_in_box(const Bounds& box, const Vec3& origin, const Vec3& direction, 
 
 /// Point and normal of a pixel, in double, from the pixel's ray and the face's plane.
 ///
-/// The point is rounded as its distance from the camera is; put onto the plane once more it misses it by the rounding
-/// of n·(p - a), four roundings of every |p - a|, and by that of its own coordinates.
+/// The point is rounded as its distance from the camera is; put onto the plane once more it misses it by the
+/// rounding of n·(p - a), four roundings of every |p - a|, and by that of its own coordinates.
 void place(const Vec3& origin, const Vec3& direction, const Seen& seen, std::size_t pixel,
            SurfaceBuffer& out) {
   const TriangleMesh& mesh = seen.geometry->mesh;

@@ -13,7 +13,8 @@
 
 namespace penumbra::detail {
 
-/// Runs `body(b)` for b = 0 ... blocks - 1 on the threads, and reports progress after every 16. Throws Cancelled.
+/// Runs `body(b)` for b = 0 ... blocks - 1 on the threads, and reports progress after every 16. Throws
+/// Cancelled.
 template <class Body>
 void for_each_block(tbb::task_arena& threads, std::size_t blocks, const Progress& progress,
                     const Body& body) {

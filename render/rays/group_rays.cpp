@@ -75,7 +75,8 @@ void cut_to_box(const GroupFrame& frame, Lanes& lanes, int* valid) {
   for (std::size_t k = 0; k < kRays; ++k) valid[k] = misses[k] != 0.0 ? 0 : valid[k];
 }
 
-/// Embree looks at rays that are not valid, too, where the processor has no registers for sixteen: they are made to end before they begin.
+/// Embree looks at rays that are not valid, too, where the processor has no registers for sixteen: they are
+/// made to end before they begin.
 PENUMBRA_VECTOR_CLONES
 void empty_others(GroupRays& rays) {
   for (std::size_t k = 0; k < kRays; ++k) {

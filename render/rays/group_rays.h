@@ -1,7 +1,7 @@
 // Sixteen rays in the frame of one group: from double in the world to float within the group's box.
 //
-// A float ray is only as good as its start. So each ray is cut to the part that may meet the group's faces, in double,
-// before it is rounded. Wherever receiver and light are, coordinates then stay within about 1.2.
+// A float ray is only as good as its start. So each ray is cut to the part that may meet the group's faces,
+// in double, before it is rounded. Wherever receiver and light are, coordinates then stay within about 1.2.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -10,9 +10,9 @@
 
 namespace penumbra::detail {
 
-/// A float ray starts this long before its receiver where that lies in the box, and ends this long beyond the light point:
-/// further than float can misplace a face that the ray does not graze at less than a thousandth of a radian. In units of
-/// the frame; directions are about 1 long in their largest coordinate.
+/// A float ray starts this long before its receiver where that lies in the box, and ends this long beyond the
+/// light point: further than float can misplace a face that the ray does not graze at less than a thousandth
+/// of a radian. In units of the frame; directions are about 1 long in their largest coordinate.
 inline constexpr double kBeyondEnds = 0x1p-12;
 /// And this long before it enters the box where the receiver lies outside.
 inline constexpr double kBeforeBox = 0x1p-3;

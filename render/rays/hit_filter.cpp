@@ -48,7 +48,8 @@ bool is_own(const RayPacket& packet, std::size_t k, const RayGeometry& geometry,
   return packet.face[k] == face && packet.object[k] == static_cast<std::int32_t>(geometry.object);
 }
 
-/// The face that the hit stands for, by double and exact predicates where that is needed; none if it does not count.
+/// The face that the hit stands for, by double and exact predicates where that is needed; none if it does not
+/// count.
 std::optional<std::uint32_t> face_of(const Hit& hit, const RayGeometry& geometry, const HitQuery& query) {
   const std::uint32_t face = geometry.face(hit.primitive);
   if (is_own(query.packet, hit.ray, geometry, face)) return std::nullopt;
@@ -107,8 +108,8 @@ void filter_occluded(const RTCFilterFunctionNArguments* arguments) {
     if (arguments->valid[i] && !face_of(Hit(*arguments, i), geometry, query)) arguments->valid[i] = 0;
 }
 
-/// An accepted hit leaves the ray longer than itself, by the errors of two places, so that Embree still reports faces
-/// that may lie before it. Those are compared in double.
+/// An accepted hit leaves the ray longer than itself, by the errors of two places, so that Embree still
+/// reports faces that may lie before it. Those are compared in double.
 void filter_nearest(const RTCFilterFunctionNArguments* arguments) {
   constexpr float kMostError = 0x1p-10f;  // of a place on a face that the ray grazes
   const auto& geometry = *static_cast<const RayGeometry*>(arguments->geometryUserPtr);

@@ -7,8 +7,8 @@ namespace penumbra::detail {
 namespace {
 
 constexpr std::size_t kMostGroups = 8;
-/// A group may be so many times the size of its smallest part, which then keeps 16 bits: float moves its points by less
-/// than 1e-5 of its size.
+/// A group may be so many times the size of its smallest part, which then keeps 16 bits: float moves its
+/// points by less than 1e-5 of its size.
 constexpr double kMostScales = 256.0;
 
 double extent(const Bounds& bounds) {
@@ -50,8 +50,8 @@ void add_pieces(const TriangleMesh& mesh, std::uint32_t object, std::vector<Piec
   }
 }
 
-/// Pieces by ascending size, each into the group that grows least by it. None where more than the most groups would be
-/// needed.
+/// Pieces by ascending size, each into the group that grows least by it. None where more than the most groups
+/// would be needed.
 std::optional<std::vector<std::vector<const Piece*>>> try_to_group(const std::vector<Piece>& pieces,
                                                                    double most_scales) {
   struct Group {

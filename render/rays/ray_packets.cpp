@@ -51,7 +51,8 @@ bool are_of_one_face(const RayPacket& packet) {
   return other == 0;
 }
 
-/// Whether a ray that still counts leaves a plane flat, by the square of the plane's normal times that of the sine.
+/// Whether a ray that still counts leaves a plane flat, by the square of the plane's normal times that of the
+/// sine.
 PENUMBRA_VECTOR_CLONES
 bool is_any_flat(const RayPacket& packet, const Vec3& normal, double steepest) {
   std::int64_t any = 0;

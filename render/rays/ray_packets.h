@@ -1,14 +1,15 @@
-// Rays from receivers to points of a light: sixteen at a time for occlusion, one by one for the first face on the way.
+// Rays from receivers to points of a light: sixteen at a time for occlusion, one by one for the first face on
+// the way.
 //
-// In: receivers and ways in world coordinates, double. Out: whether a face of a caster lies on the way, or which.
-// Embree's float rays are a filter: what they cannot tell is decided in double (hit_filter.h), so that rays start
-// exactly at the receiver and end exactly at the light. A face in whose plane the receiver or the light point lies, as
-// far as double can tell, hides nothing, nor does the receiver's own face. Only where a ray grazes both faces of a silhouette edge,
-// and passes it within float's rounding of the group's frame (ray_groups.h), some 1e-7 of its extent, may either answer
-// come out.
+// In: receivers and ways in world coordinates, double. Out: whether a face of a caster lies on the way, or
+// which. Embree's float rays are a filter: what they cannot tell is decided in double (hit_filter.h), so that
+// rays start exactly at the receiver and end exactly at the light. A face in whose plane the receiver or the
+// light point lies, as far as double can tell, hides nothing, nor does the receiver's own face. Only where a
+// ray grazes both faces of a silhouette edge, and passes it within float's rounding of the group's frame
+// (ray_groups.h), some 1e-7 of its extent, may either answer come out.
 //
-// Methods trace with these; Embree itself is included by render/rays only. The orientation of faces does not matter.
-// Any number of threads may trace at once, best inside of RayScene::arena().
+// Methods trace with these; Embree itself is included by render/rays only. The orientation of faces does not
+// matter. Any number of threads may trace at once, best inside of RayScene::arena().
 #pragma once
 
 #include <cstddef>
@@ -41,7 +42,8 @@ struct Ray {
   bool endless = false;
 };
 
-/// Sixteen rays. A packet is made once and used again and again: what stays the same from call to call is set once.
+/// Sixteen rays. A packet is made once and used again and again: what stays the same from call to call is set
+/// once.
 struct RayPacket {
   static constexpr std::size_t kRays = 16;
 
@@ -93,7 +95,8 @@ enum class Coherence {
   kSingly,      ///< one by one
 };
 
-/// Whether a face of a caster lies on the way of each wanted ray: RayPacket::occluded tells. Cost O(log faces) a ray.
+/// Whether a face of a caster lies on the way of each wanted ray: RayPacket::occluded tells. Cost O(log
+/// faces) a ray.
 void find_occluded(const RayScene& rays, RayPacket& packet, Coherence coherence);
 
 /// The first face that a ray meets.

@@ -49,9 +49,9 @@ GroupFrame frame_of(const Bounds& bounds) {
           frame.to_local(bounds.high) + kBoxMargin};
 }
 
-/// The corner at `p` of a face of which every side moves outward by `by`. The sides at it run to `q` and `r`: it moves
-/// along the line that halves their angle, by `by` over the sine of half of it. Not farther than `farthest`, where the
-/// angle is small.
+/// The corner at `p` of a face of which every side moves outward by `by`. The sides at it run to `q` and `r`:
+/// it moves along the line that halves their angle, by `by` over the sine of half of it. Not farther than
+/// `farthest`, where the angle is small.
 Vec3 grown_corner(const Vec3& p, const Vec3& q, const Vec3& r, double by, double farthest) {
   const Vec3 one = unit(q - p), other = unit(r - p);
   const double half_sine = 0.5 * glm::distance(one, other);
@@ -150,7 +150,8 @@ RayScene::Impl::Impl(const Scene& scene, tbb::task_arena& threads) {
       for (const auto* groups : {&casters, &others})
         for (const auto& group : *groups) rtcCommitScene(group->scene);
     } catch (...) {
-      // To release a scene that could not be committed, for want of memory, waits for ever (Embree 3.13): it is left.
+      // To release a scene that could not be committed, for want of memory, waits for ever (Embree 3.13): it
+      // is left.
       for (const auto* groups : {&casters, &others})
         for (const auto& group : *groups) group->scene = nullptr;
       throw;

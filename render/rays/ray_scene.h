@@ -12,8 +12,8 @@
 
 namespace penumbra {
 
-/// Embree's hierarchies over a scene's objects, in one group of similar size or several (ray_groups.h), each in a frame
-/// of its own. They serve every light. Meshes are shared, not copied.
+/// Embree's hierarchies over a scene's objects, in one group of similar size or several (ray_groups.h), each
+/// in a frame of its own. They serve every light. Meshes are shared, not copied.
 class RayScene {
  public:
   RayScene(const Scene& scene, detail::Threads threads);

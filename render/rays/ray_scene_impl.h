@@ -32,10 +32,11 @@ struct RayGeometry {
   double scale;                      ///< of the frame
   /// How far a face's sides are moved outward (hit_filter.h), and its corners at most; in the frame.
   double grown, farthest;
-  /// Where |t|·|N·d| is larger, float knows on which side of the face a point of the ray lies, t away from the hit
-  /// (hit_filter.h).
+  /// Where |t|·|N·d| is larger, float knows on which side of the face a point of the ray lies, t away from
+  /// the hit (hit_filter.h).
   float clear;
-  /// Where w·|N·d| is larger, float knows that a hit with the least barycentric coordinate w lies within the face.
+  /// Where w·|N·d| is larger, float knows that a hit with the least barycentric coordinate w lies within the
+  /// face.
   float border;
 };
 

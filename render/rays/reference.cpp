@@ -21,7 +21,8 @@ using detail::StratumTable;
 constexpr int kLanes = detail::RayPacket::kRays;
 static_assert(kLanes == detail::kSampleLanes);
 
-/// Ways from a receiver to sixteen samples of the light, in world coordinates, and which of them are above its horizon.
+/// Ways from a receiver to sixteen samples of the light, in world coordinates, and which of them are above
+/// its horizon.
 ///
 /// Double from the start, relative to the receiver: the light may be at any distance.
 struct Aim {
@@ -64,7 +65,8 @@ struct RayCounts {
   std::size_t rays = 0;
 };
 
-/// The packet's rays all start at the receiver. `all`: also trace what is below the horizon, for the unblocked count.
+/// The packet's rays all start at the receiver. `all`: also trace what is below the horizon, for the
+/// unblocked count.
 RayCounts trace_receiver(const RayScene& rays, const Aim& aim, const StratumTable& table, std::uint32_t key,
                          bool all, detail::Coherence coherence, detail::RayPacket& packet) {
   RayCounts counts;

@@ -40,8 +40,8 @@ struct ReferenceResult {
   double milliseconds = 0.0;
 };
 
-/// Of the receivers whose indices are given. 1 where there is no receiver, 0 behind the light's plane. A light
-/// that is a point gets trace_hard. Throws UsageError for samples outside their range, Cancelled. Cost
+/// Of the receivers whose indices are given. 1 where there is no receiver, 0 behind the light's plane. A
+/// light that is a point gets trace_hard. Throws UsageError for samples outside their range, Cancelled. Cost
 /// O(receivers · samples · log faces), on all threads of `rays`.
 ReferenceResult trace_reference(const RayScene& rays, const LightShape& light, const Receivers& receivers,
                                 std::span<const std::uint32_t> indices, const ReferenceOptions& options,

@@ -7,8 +7,8 @@
 
 namespace penumbra::detail {
 
-/// V by `see(true, progress)` and, where O is wanted, O by `see(false, progress)`, whose results are MethodResults. The stages
-/// are of both, all else is that of V. Cost: one call of `see`, or two.
+/// V by `see(true, progress)` and, where O is wanted, O by `see(false, progress)`, whose results are
+/// MethodResults. The stages are of both, all else is that of V. Cost: one call of `see`, or two.
 template <class See>
 MethodResult see_with_unoccluded(const MethodInput& input, const See& see) {
   const double first = input.with_unoccluded ? 0.5 : 1.0;
@@ -20,7 +20,8 @@ MethodResult see_with_unoccluded(const MethodInput& input, const See& see) {
   return out;
 }
 
-/// The same where `see` gives a method's own result, of visibility, stages and counts. `to_counts` makes its counts Counts.
+/// The same where `see` gives a method's own result, of visibility, stages and counts. `to_counts` makes its
+/// counts Counts.
 template <class See, class ToCounts>
 MethodResult see_with_unoccluded(const MethodInput& input, const See& see, const ToCounts& to_counts) {
   return see_with_unoccluded(input, [&](bool horizon, const Progress& progress) {

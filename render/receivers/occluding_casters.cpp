@@ -27,7 +27,8 @@ class ReceiverBoxes {
     });
   }
 
-  /// No receiver lies behind the plane of the object, as far as double can tell. Those on faces in the plane do not.
+  /// No receiver lies behind the plane of the object, as far as double can tell. Those on faces in the plane
+  /// do not.
   bool are_in_front(const SeparatingPlanes::Plane& plane, std::int32_t object) const {
     const ClearHeight clear(plane);
     std::atomic<bool> behind{false};

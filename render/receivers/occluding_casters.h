@@ -12,10 +12,10 @@
 
 namespace penumbra::detail {
 
-/// One flag an object: casters that hide nothing from the receivers. What lies in a plane, as far as double can tell,
-/// lies on either side of it (side_of_plane); so do receivers on a face in that plane. A mesh of more than a hundred
-/// faces or of more than sixteen planes is not looked at, and never flagged. Cost O(objects), and O(pixels) where a
-/// floor, wall or room casts.
+/// One flag an object: casters that hide nothing from the receivers. What lies in a plane, as far as double
+/// can tell, lies on either side of it (side_of_plane); so do receivers on a face in that plane. A mesh of
+/// more than a hundred faces or of more than sixteen planes is not looked at, and never flagged. Cost
+/// O(objects), and O(pixels) where a floor, wall or room casts.
 std::vector<char> find_casters_that_cannot_occlude(const Scene& scene, const CircularLight& light,
                                                    const Receivers& receivers);
 

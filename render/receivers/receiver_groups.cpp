@@ -8,8 +8,8 @@
 namespace penumbra::detail {
 namespace {
 
-// Speed: so far apart, in halves of all receivers' extent, are two opposite normals. Receivers of a group then
-// share their horizon as well as their place.
+// Speed: so far apart, in halves of all receivers' extent, are two opposite normals. Receivers of a group
+// then share their horizon as well as their place.
 constexpr double kNormalWeight = 0.25;
 
 struct Placed {

@@ -9,8 +9,8 @@
 
 namespace penumbra::detail {
 
-/// A picture's pixels in tiles of 8×8. Other receivers by place and normal, in an order that does not depend on
-/// the one in which they are given. Refers to nothing.
+/// A picture's pixels in tiles of 8×8. Other receivers by place and normal, in an order that does not depend
+/// on the one in which they are given. Refers to nothing.
 class ReceiverGroups {
  public:
   static constexpr int kTile = 8;  ///< pixels a side

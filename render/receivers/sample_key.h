@@ -6,8 +6,8 @@
 
 namespace penumbra::detail {
 
-/// A pixel by its place in the picture, any other receiver by its coordinates: its samples do not depend on the order of
-/// receivers.
+/// A pixel by its place in the picture, any other receiver by its coordinates: its samples do not depend on
+/// the order of receivers.
 inline std::uint32_t sample_key_of(const Receivers& receivers, std::uint32_t receiver, std::uint64_t seed) {
   if (receivers.are_pixels()) return sample_key(seed, receiver);
   return sample_key(seed, receivers.points[receiver]);

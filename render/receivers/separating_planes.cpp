@@ -22,8 +22,8 @@ bool is_plane(const FaceCorners& f) {
   return length > 0.0 && side_of_plane(f, f.a + n * (glm::length(f.b - f.a) / length)) != 0;
 }
 
-/// Whether a disk that is not distant lies in front of the plane or touches it, as far as double can tell: so does then its
-/// point farthest against the plane's normal.
+/// Whether a disk that is not distant lies in front of the plane or touches it, as far as double can tell: so
+/// does then its point farthest against the plane's normal.
 bool is_in_front(const CircularLight& light, const SeparatingPlanes::Plane& plane, const Vec3& n) {
   const Vec3 m = unit(light.normal), within = n - glm::dot(n, m) * m;
   const double length = glm::length(within);
@@ -31,8 +31,8 @@ bool is_in_front(const CircularLight& light, const SeparatingPlanes::Plane& plan
   return plane.front * side_of_plane(plane.face, farthest) >= 0;
 }
 
-/// The same of a distant light: every point d of it has N·d of at least N·c - r|N × m|, which is known to some roundings
-/// of |N|.
+/// The same of a distant light: every point d of it has N·d of at least N·c - r|N × m|, which is known to
+/// some roundings of |N|.
 bool distant_is_in_front(const CircularLight& light, const Vec3& n) {
   constexpr double kRounding = 0x1p-50;
   const Vec3 m = unit(light.normal);

@@ -17,15 +17,17 @@ class SeparatingPlanes {
     FaceCorners face;
     /// Which side of the face is in front: 1 or -1 (side_of_plane).
     int front = 1;
-    /// One a face of the mesh: no point of it is in front, as far as double can tell. And: it lies in the plane.
+    /// One a face of the mesh: no point of it is in front, as far as double can tell. And: it lies in the
+    /// plane.
     std::vector<char> behind, within;
   };
 
-  /// Cost O(1): a mesh of more than a hundred faces or of more than sixteen planes is not looked at, and none of it is
-  /// ever separated.
+  /// Cost O(1): a mesh of more than a hundred faces or of more than sixteen planes is not looked at, and none
+  /// of it is ever separated.
   explicit SeparatingPlanes(const TriangleMesh& mesh);
 
-  /// True where every face lies behind a plane that has all of the light in front, or on it, and for which `suits` holds.
+  /// True where every face lies behind a plane that has all of the light in front, or on it, and for which
+  /// `suits` holds.
   bool separate(const CircularLight& light, const std::function<bool(const Plane&)>& suits) const;
 
  private:

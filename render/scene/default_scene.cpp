@@ -16,7 +16,8 @@
 namespace penumbra::detail {
 namespace {
 
-// Lengths in camera_for are for a mesh whose bounding sphere has this radius, as that of a mesh in [-1, 1]³ about has.
+// Lengths in camera_for are for a mesh whose bounding sphere has this radius, as that of a mesh in [-1, 1]³
+// about has.
 constexpr double kModelRadius = 1.5;
 
 double scale_of(const Bounds& bounds) {
@@ -27,7 +28,8 @@ Vec3 foot_of(const Bounds& bounds) {
   return {bounds.center().x, bounds.low.y, bounds.center().z};
 }
 
-// What a bare mesh gets. Lengths are radii of its bounding sphere; numbers were chosen by looking at pictures.
+// What a bare mesh gets. Lengths are radii of its bounding sphere; numbers were chosen by looking at
+// pictures.
 constexpr double kLightDistance = 5.0, kLightElevation = 55.0, kLightRadius = 0.4;
 // It aims beyond the mesh, so that the floor gets about as much on either side of it.
 constexpr double kLightAim = 42.0;
@@ -41,7 +43,8 @@ constexpr double kAspect = 4.0 / 3.0;
 constexpr double kFloorBelow = 1e-3;
 // Of the radius of mesh and shadow on the floor: where the floor begins to fade, and where it has faded.
 constexpr double kFadeFrom = 0.7, kFadeTo = 2.8;
-// Linear RGB: the floor at the mesh's foot where no shadow is, and the sky. Together they nearly make the background.
+// Linear RGB: the floor at the mesh's foot where no shadow is, and the sky. Together they nearly make the
+// background.
 constexpr double kFloorRadiance = 0.70, kAmbient = 0.11, kFloorAlbedo = 0.8;
 // Bright enough beside the floor, and not clipped where it faces the light.
 const Vec3 kMeshAlbedo{0.75, 0.66, 0.57};
@@ -83,8 +86,8 @@ Part part_of(const TriangleMesh& mesh, const Component& component) {
   return part;
 }
 
-/// Points of all that a picture has to show. Scans come with specks, far off or below: parts smaller than a share of the
-/// largest one do not count, where all of them together are little of the surface.
+/// Points of all that a picture has to show. Scans come with specks, far off or below: parts smaller than a
+/// share of the largest one do not count, where all of them together are little of the surface.
 std::vector<Vec3> points_that_count(const TriangleMesh& mesh) {
   constexpr double kSpeck = 0.02, kLittle = 0.01;
   std::vector<Vec3> all(mesh.positions().begin(), mesh.positions().end());

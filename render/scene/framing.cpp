@@ -12,8 +12,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Along one axis of the picture. With a the eye's coordinate along the axis, c its depth and t the frustum's half size, the
-/// point p lies inside where a - t c ≥ p.a - t p.c and -a - t c ≥ -p.a - t p.c.
+/// Along one axis of the picture. With a the eye's coordinate along the axis, c its depth and t the frustum's
+/// half size, the point p lies inside where a - t c ≥ p.a - t p.c and -a - t c ≥ -p.a - t p.c.
 struct Side {
   double over = -std::numeric_limits<double>::infinity(), under = over;
 

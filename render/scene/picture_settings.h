@@ -27,13 +27,14 @@ std::string to_text(const Background& background);
 inline constexpr int kMostAntialias = 16;
 
 struct PictureSettings {
-  /// Fill light: the radiance of a sky that nothing hides, above a ground half as bright. A surface gets albedo · ambient ·
-  /// (3 + n·up) / 4 for its shading normal n and the camera's up.
+  /// Fill light: the radiance of a sky that nothing hides, above a ground half as bright. A surface gets
+  /// albedo · ambient · (3 + n·up) / 4 for its shading normal n and the camera's up.
   Vec3 ambient{0.0};
   Background background{};
   /// Samples along each side of a pixel. A wish: programs hand it to RenderOptions.
   int antialias = 1;
-  /// Disks and rectangles are seen as what they are: they have their radiance in front, and are black behind. Distant lights are not.
+  /// Disks and rectangles are seen as what they are: they have their radiance in front, and are black behind.
+  /// Distant lights are not.
   bool show_lights = false;
 };
 

@@ -1,7 +1,8 @@
 // The frame of float stages: where rays have their digits.
 //
-// Everything is moved to the middle of what casts and scaled by a power of two, so that casters fill about [-1, 1] and
-// float keeps its digits where shadows are decided. Lights and receivers may lie anywhere outside.
+// Everything is moved to the middle of what casts and scaled by a power of two, so that casters fill about
+// [-1, 1] and float keeps its digits where shadows are decided. Lights and receivers may lie anywhere
+// outside.
 #pragma once
 
 #include "penumbra/render/scene/scene.h"

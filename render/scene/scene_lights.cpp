@@ -14,8 +14,8 @@ namespace {
 
 // Directions closer to parallel than this leave the other one of a frame to rounding.
 constexpr double kParallel = 1e-9;
-// Of a distant light whose file gives neither irradiance nor radiance: a white surface that faces it then has a
-// radiance of about 1.
+// Of a distant light whose file gives neither irradiance nor radiance: a white surface that faces it then has
+// a radiance of about 1.
 constexpr double kDistantIrradiance = 3.0;
 
 Vec3 read_direction(const SceneNode& node, const char* key) {

@@ -16,7 +16,8 @@ std::string counted(std::size_t count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// Whether a face of the mesh, which is the entry's under this transform, was turned round: its corners 1 and 2 have then changed places.
+/// Whether a face of the mesh, which is the entry's under this transform, was turned round: its corners 1 and
+/// 2 have then changed places.
 bool is_turned(const MeshCache::Entry& entry, const Transform& transform, const TriangleMesh& mesh,
                std::uint32_t face) {
   const IndexedTriangle& read = entry.triangulation.triangles[mesh.source_triangles()[face]];
@@ -93,7 +94,8 @@ void take_material_colors(const MeshCache::Entry& entry, SceneObject& object) {
 void take_normals(const MeshCache::Entry& entry, const Transform& transform, SceneObject& object) {
   if (entry.normals.empty()) return;
   const auto& [x, y, z] = transform.columns;
-  // The transposed inverse but for its length: where the transform mirrors, cofactors point to the other side.
+  // The transposed inverse but for its length: where the transform mirrors, cofactors point to the other
+  // side.
   const double side = transform.mirrors() ? -1.0 : 1.0;
   const std::array<Vec3, 3> turned = {side * glm::cross(y, z), side * glm::cross(z, x),
                                       side * glm::cross(x, y)};

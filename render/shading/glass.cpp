@@ -18,8 +18,9 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Of what stands behind, what a surface seen edge-on hides.
 constexpr double kRim = 0.4;
-/// In diagonals of the casters. What is missing of a surface's rim halves with each such way before what stands behind, so that a body
-/// that ends at a wall shows none there; and with each such way through the body, so that what is as thin as a solid is rough shows none.
+/// In diagonals of the casters. What is missing of a surface's rim halves with each such way before what
+/// stands behind, so that a body that ends at a wall shows none there; and with each such way through the
+/// body, so that what is as thin as a solid is rough shows none.
 constexpr double kContact = 0.02;
 
 /// What a sheet of albedo 1 shows at `point`, facing each light.

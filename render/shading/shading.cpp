@@ -56,7 +56,8 @@ struct ShadedLight {
   }
 };
 
-/// The normal between those of the face's corners, on the side of the flat one; that where the object has none.
+/// The normal between those of the face's corners, on the side of the flat one; that where the object has
+/// none.
 Vec3 smooth_normal(const SceneObject& object, std::uint32_t face, const Vec3& point, const Vec3& flat) {
   if (face >= object.corner_normals.size()) return flat;
   const auto& [i, j, k] = object.mesh.triangles()[face];
@@ -105,8 +106,8 @@ class Shader {
     for (const SceneObject& object : scene.objects) materials_.emplace_back(object, scene.picture);
   }
 
-  /// Calls `visit(pixel, color, is_behind)` for each pixel, on all threads: its R G B A, and is_behind(k) for the kth light that
-  /// is not dark. Of a pixel that shows no surface both are 0.
+  /// Calls `visit(pixel, color, is_behind)` for each pixel, on all threads: its R G B A, and is_behind(k) for
+  /// the kth light that is not dark. Of a pixel that shows no surface both are 0.
   template <class Visit>
   void for_each_pixel(const detail::Threads& threads, const Visit& visit) const {
     constexpr std::size_t kBlock = LightFactors::kMost;
@@ -185,8 +186,8 @@ class Shader {
   std::vector<Material> materials_;
 };
 
-/// Channels of an image, made where they are missing. Their memory is taken on all threads: the system clears it, which takes
-/// as long as filling it.
+/// Channels of an image, made where they are missing. Their memory is taken on all threads: the system clears
+/// it, which takes as long as filling it.
 class Channels {
  public:
   explicit Channels(Image& image) : image_(image) {}

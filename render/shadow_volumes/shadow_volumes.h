@@ -1,16 +1,17 @@
 // The method shadow-volumes: hard shadows, by the number of shadow volumes around each receiver.
 //
-// In: casters, a light, receivers. Out: V of each receiver, 1 or 0: whether it sees the light's center. That is what the method
-// `hard` finds by rays.
+// In: casters, a light, receivers. Out: V of each receiver, 1 or 0: whether it sees the light's center. That
+// is what the method `hard` finds by rays.
 //
 //   1. culling   casters that hide the center from no receiver are left out
 //   2. polygons  caps and sides of the volumes of all others (center_view/volume_polygons.h)
 //   3. count     those around each receiver (volume_counter.h)
 //
-// F. Crow, "Shadow algorithms for computer graphics" (1977); T. Heidmann, "Real shadows real time" (1991); C. Everitt, M. Kilgard,
-// "Practical and robust stenciled shadow volumes" (2002); B. Lloyd and others, "CC shadow volumes" (2004); "Casting Shadows in
-// Real Time" (2009), section 2.2. They count in a stencil buffer, along rays from the camera. Here lines of one direction, which
-// depends on the light alone, take the place of those: no clip plane, no eye inside of a volume, and receivers need not be pixels.
+// F. Crow, "Shadow algorithms for computer graphics" (1977); T. Heidmann, "Real shadows real time" (1991); C.
+// Everitt, M. Kilgard, "Practical and robust stenciled shadow volumes" (2002); B. Lloyd and others, "CC
+// shadow volumes" (2004); "Casting Shadows in Real Time" (2009), section 2.2. They count in a stencil buffer,
+// along rays from the camera. Here lines of one direction, which depends on the light alone, take the place
+// of those: no clip plane, no eye inside of a volume, and receivers need not be pixels.
 #pragma once
 
 #include <vector>
@@ -48,8 +49,8 @@ struct ShadowVolumeResult {
   ShadowVolumeCounts counts;
 };
 
-/// `threads`: to work on; the result does not depend on their number. Cost O(faces log faces), and for each receiver the polygons
-/// near its line. Throws Cancelled.
+/// `threads`: to work on; the result does not depend on their number. Cost O(faces log faces), and for each
+/// receiver the polygons near its line. Throws Cancelled.
 ShadowVolumeResult shadow_volumes(const Scene& scene, const LightShape& light, const Receivers& receivers,
                                   const ShadowVolumeOptions& options, tbb::task_arena& threads,
                                   const Progress& progress);

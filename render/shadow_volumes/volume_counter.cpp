@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Speed. Lines run towards the light, so that they leave volumes by their caps and sides near the casters, but askew to its
-/// axes, since a line along a side would graze it. Small: sides seen along the line are short.
+/// Speed. Lines run towards the light, so that they leave volumes by their caps and sides near the casters,
+/// but askew to its axes, since a line along a side would graze it. Small: sides seen along the line are
+/// short.
 constexpr double kAskewU = 0.1303, kAskewV = 0.0717;
 /// Accuracy. Boxes are larger by that, times the largest coordinate.
 constexpr double kRounding = 0x1p-40;
@@ -26,7 +27,8 @@ bool is_negative(double x) {
   return x < 0.0;
 }
 
-/// Whether a line through the origin along d passes within the triangle, and which way: the sign of d·normal; else 0.
+/// Whether a line through the origin along d passes within the triangle, and which way: the sign of d·normal;
+/// else 0.
 int passes(const FaceCorners& t, const Vec3& x, const Vec3& d) {
   const Vec3 a = t.a - x, b = t.b - x, c = t.c - x;
   const bool ab = is_negative(det(a, b, d)), bc = is_negative(det(b, c, d)), ca = is_negative(det(c, a, d));

@@ -1,14 +1,15 @@
 // Method shadow-volumes, step count: in how many shadow volumes a point lies.
 //
-// In: caps and sides, a point. Out: the number of volumes around it, by the polygons on a line from it to infinity: those at
-// which the line leaves a volume minus those at which it enters one. That is z-fail, for an eye that is infinitely far away on the
-// other end of the line. All lines have one direction, so the polygons are sorted in two dimensions, across it.
+// In: caps and sides, a point. Out: the number of volumes around it, by the polygons on a line from it to
+// infinity: those at which the line leaves a volume minus those at which it enters one. That is z-fail, for
+// an eye that is infinitely far away on the other end of the line. All lines have one direction, so the
+// polygons are sorted in two dimensions, across it.
 //
-// With A, B, C the ways from the point to an edge's ends and to the center (of a distant light the direction towards it) and d the
-// line's direction, the line meets the plane of A, B, C at det(A, B, C) / s, s = det(A, B, d) + det(B, C, d) + det(C, A, d) (without
-// the first of a distant light), and there it is beyond the edge where det(B, C, d) and det(C, A, d) have the sign of s and
-// det(A, B, d) has the other one. Each determinant depends on two points only: polygons that share them get the same bits, and no
-// line slips between them.
+// With A, B, C the ways from the point to an edge's ends and to the center (of a distant light the direction
+// towards it) and d the line's direction, the line meets the plane of A, B, C at det(A, B, C) / s, s = det(A,
+// B, d) + det(B, C, d) + det(C, A, d) (without the first of a distant light), and there it is beyond the edge
+// where det(B, C, d) and det(C, A, d) have the sign of s and det(A, B, d) has the other one. Each determinant
+// depends on two points only: polygons that share them get the same bits, and no line slips between them.
 #pragma once
 
 #include <array>
@@ -34,12 +35,14 @@ struct CrossingCounts {
 
 class VolumeCounter {
  public:
-  /// For receivers that are present and in front of the light. Cost O(polygons log polygons), on the calling arena's threads.
+  /// For receivers that are present and in front of the light. Cost O(polygons log polygons), on the calling
+  /// arena's threads.
   VolumeCounter(const VolumePolygons& polygons, const AreaLight& light, const Receivers& receivers,
                 const CounterOptions& options);
 
-  /// Volumes around a receiver: faces between it and the light's center. What lies in the plane of a face, as far as
-  /// double can tell, is outside of that face's volume (side_of_plane). Cost O(log polygons), and O(polygons near the line).
+  /// Volumes around a receiver: faces between it and the light's center. What lies in the plane of a face, as
+  /// far as double can tell, is outside of that face's volume (side_of_plane). Cost O(log polygons), and
+  /// O(polygons near the line).
   int volumes_around(const RayStart& start, CrossingCounts& counts) const;
   /// Polygons that receivers may meet.
   std::size_t caps() const { return caps_; }

@@ -77,7 +77,8 @@ class Filter {
         tap(k, kSpline[static_cast<std::size_t>(row + 2)] * kSpline[static_cast<std::size_t>(column + 2)]);
       }
   }
-  /// The weight of a neighbor whose value is so many times the noise away: less the more it lies on another surface.
+  /// The weight of a neighbor whose value is so many times the noise away: less the more it lies on another
+  /// surface.
   float weight_of(std::uint32_t i, std::uint32_t k, float deviations) const {
     if (i == k) return 1.0f;
     const Vec3& normal = pixels_.normals[i];

@@ -1,11 +1,12 @@
-// A filter for few rays a pixel, as renderers use it: joint-bilateral, guided by position and normal, à trous.
+// A filter for few rays a pixel, as renderers use it: joint-bilateral, guided by position and normal, à
+// trous.
 //
-//   H. Dammertz, D. Sewtz, J. Hanika, H. Lensch, "Edge-Avoiding À-Trous Wavelet Transform for Fast Global Illumination
-//   Filtering", 2010: five taps a row, twice as far apart at each level.
-//   C. Schied and others, "Spatiotemporal Variance-Guided Filtering", 2017: neighbors count for less where they differ by more
-//   than noise explains, and by the cosine between normals to the power of 128. Of that only the spatial part is here. The
-//   variance is not measured but known: of n strata about √n are crossed by a silhouette, so that V = p has a variance of
-//   about p (1 - p) n^-3/2.
+//   H. Dammertz, D. Sewtz, J. Hanika, H. Lensch, "Edge-Avoiding À-Trous Wavelet Transform for Fast Global
+//   Illumination Filtering", 2010: five taps a row, twice as far apart at each level. C. Schied and others,
+//   "Spatiotemporal Variance-Guided Filtering", 2017: neighbors count for less where they differ by more than
+//   noise explains, and by the cosine between normals to the power of 128. Of that only the spatial part is
+//   here. The variance is not measured but known: of n strata about √n are crossed by a silhouette, so that V
+//   = p has a variance of about p (1 - p) n^-3/2.
 //
 // It trades noise for blur: narrow penumbrae and small features of a shadow are lost.
 #pragma once
@@ -32,8 +33,9 @@ struct DenoiseOptions {
   double out_of_plane = 0.1;
 };
 
-/// V of every pixel. Those of `open` are filtered, all others are exact and stay as they are. Throws UsageError where the
-/// receivers are not pixels with normals and objects, Cancelled. Cost O(levels · |open|).
+/// V of every pixel. Those of `open` are filtered, all others are exact and stay as they are. Throws
+/// UsageError where the receivers are not pixels with normals and objects, Cancelled. Cost O(levels ·
+/// |open|).
 std::vector<float> denoise(const Receivers& pixels, std::span<const float> noisy,
                            std::span<const std::uint32_t> open, const DenoiseOptions& options,
                            tbb::task_arena& threads, const Progress& progress = {});

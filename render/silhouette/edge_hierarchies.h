@@ -1,5 +1,5 @@
-// What the silhouette method keeps from call to call: hierarchies over edges of casters, which serve every light, and
-// receivers in groups, which serve it while they stay.
+// What the silhouette method keeps from call to call: hierarchies over edges of casters, which serve every
+// light, and receivers in groups, which serve it while they stay.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace penumbra::detail {
 
-/// Of a scene's casters, in the frame of rays. Each is made when it is first asked for, on the threads that are given.
-/// Not for several threads at once.
+/// Of a scene's casters, in the frame of rays. Each is made when it is first asked for, on the threads that
+/// are given. Not for several threads at once.
 class EdgeHierarchies {
  public:
   /// Refers to the scene.
@@ -26,7 +26,8 @@ class EdgeHierarchies {
   const CasterBoxes& boxes(tbb::task_arena& threads);
   /// Groups that a caller has made, for the next call of groups(), or nullptr. They stay the caller's.
   void take_groups(const BoxedGroups* made) { taken_ = made; }
-  /// The receivers in groups: those that were taken, else those of the call before where their revision is the same and not 0.
+  /// The receivers in groups: those that were taken, else those of the call before where their revision is
+  /// the same and not 0.
   const BoxedGroups& groups(const Receivers& receivers, tbb::task_arena& threads);
   /// How often groups have been made.
   std::size_t groupings() const { return groupings_; }

@@ -18,8 +18,8 @@ struct RayTask {
   std::size_t receiver = 0;  ///< of the tile, for whoever asks
 };
 
-/// Traces from the receivers to the disk (rays/ray_packets.h), and ends `depth` before it (Band::depth): rays and edges then
-/// agree on what lies in the light's plane.
+/// Traces from the receivers to the disk (rays/ray_packets.h), and ends `depth` before it (Band::depth): rays
+/// and edges then agree on what lies in the light's plane.
 void trace_tasks(const RayScene& rays, const Receivers& receivers, const UnitLight& light, double depth,
                  std::span<RayTask> tasks);
 

@@ -52,8 +52,9 @@ bool LitGroups::is_lit(std::size_t group) const {
   });
 }
 
-/// With n = m + d and x = y + e, m and y the middles of both boxes: the center's height -n·x over the tangent plane is at
-/// least -m·y - |m|·|e| - |d|·(|y| + |e|), by components, and the plane falls across the disk by at most |n_xy|.
+/// With n = m + d and x = y + e, m and y the middles of both boxes: the center's height -n·x over the tangent
+/// plane is at least -m·y - |m|·|e| - |d|·(|y| + |e|), by components, and the plane falls across the disk by
+/// at most |n_xy|.
 bool LitGroups::has_disk_above(const ReceiverBox& box, const Box& points) const {
   const Vec3 normal = lit_.light.direction(box.normals.center());
   const Vec3 beside = turned(lit_.light, 0.5 * (box.normals.high - box.normals.low));

@@ -1,9 +1,10 @@
-// Silhouette method, before edges are collected: groups of receivers that see all of the light, by boxes alone.
+// Silhouette method, before edges are collected: groups of receivers that see all of the light, by boxes
+// alone.
 //
-// In: groups with their boxes, which stay while the receivers do; casters as boxes, which stay as long as they; a light. Out:
-// for a group whether all its receivers are in front of the light, have the whole disk above their horizons, and no box of a
-// caster between. What would be found receiver by receiver is then known: lit. Decided with margins: where rounding may
-// matter the answer is no.
+// In: groups with their boxes, which stay while the receivers do; casters as boxes, which stay as long as
+// they; a light. Out: for a group whether all its receivers are in front of the light, have the whole disk
+// above their horizons, and no box of a caster between. What would be found receiver by receiver is then
+// known: lit. Decided with margins: where rounding may matter the answer is no.
 #pragma once
 
 #include <vector>
@@ -17,8 +18,8 @@ namespace penumbra::detail {
 /// Refers to the groups and to the lit scene.
 class LitGroups {
  public:
-  /// `horizon`: whether tangent planes hide what lies below them. Only for lights that are not far (UnitLight): of others no
-  /// group is known to be lit. Cost O(boxes).
+  /// `horizon`: whether tangent planes hide what lies below them. Only for lights that are not far
+  /// (UnitLight): of others no group is known to be lit. Cost O(boxes).
   LitGroups(const BoxedGroups& groups, const CasterBoxes& boxes, const LitScene& lit, bool horizon);
   /// Cost O(casters), and O(boxes) of those near by.
   bool is_lit(std::size_t group) const;

@@ -1,8 +1,8 @@
 // Silhouette method, before edges are collected: in which order receivers are served, and by which edges.
 //
-// Casters may have levels of merged edges (merged_edges.h). The first pass has the coarsest level that may do.
-// Receivers for which its edges lie too far off the true ones wait for a later pass. The last pass has the edges of
-// all faces. A pass makes a band, then goes over the groups that wait for it.
+// Casters may have levels of merged edges (merged_edges.h). The first pass has the coarsest level that may
+// do. Receivers for which its edges lie too far off the true ones wait for a later pass. The last pass has
+// the edges of all faces. A pass makes a band, then goes over the groups that wait for it.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -44,8 +44,8 @@ struct Passes {
   }
 };
 
-/// By the merged edges (or none) and how far they may be moved (light radii); `receivers`: how many there are. None but
-/// the last where nothing is to be merged or a caster crosses the light's plane.
+/// By the merged edges (or none) and how far they may be moved (light radii); `receivers`: how many there
+/// are. None but the last where nothing is to be merged or a caster crosses the light's plane.
 Passes make_passes(const LitScene& lit, const SceneEdges& edges, const MergedEdges* merged, double tolerance,
                    std::size_t receivers);
 

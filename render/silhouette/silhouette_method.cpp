@@ -43,8 +43,8 @@ Counts to_counts(const SilhouetteCounts& c, std::size_t open) {
           {"open", open}};
 }
 
-// Speed: about so many edges are looked at in the time of one ray. Looking for a certificate then takes no longer than to do
-// without.
+// Speed: about so many edges are looked at in the time of one ray. Looking for a certificate then takes no
+// longer than to do without.
 constexpr std::size_t kEdgesOfRay = 24, kFewEdges = 64;
 
 constexpr const char* kAtrous = "a-trous";

@@ -6,16 +6,17 @@
 //   merge/    the same with merged edges, where casters are finer than a silhouette can tell
 //   passes.h  which receivers look at which edges: merged ones first, all edges last
 //   collect/  the light's band of edges; of these the edges that a group of receivers may see across the disk
-//   areas/    per receiver: edges projected onto the disk, clipped to the part above the horizon, and the area of
-//             the lowest depth complexity, exact where only two depth complexities occur
+//   areas/    per receiver: edges projected onto the disk, clipped to the part above the horizon, and the
+//             area of the lowest depth complexity, exact where only two depth complexities occur
 //   light_rays.h  one ray to that area: it tells whether the lowest depth complexity is 0
 //
-// Where no edge meets the disk the receiver is wholly lit or wholly in umbra: a certificate. Receivers with normals
-// are moved by the same offset as the starts of rays; a certificate speaks of O of the moved point.
+// Where no edge meets the disk the receiver is wholly lit or wholly in umbra: a certificate. Receivers with
+// normals are moved by the same offset as the starts of rays; a certificate speaks of O of the moved point.
 //
 // Integrating visible area from silhouettes seen from the receiver is the idea of E. Eisemann and X. Décoret,
-// "Visibility sampling on GPU and applications" (2007), and of soft shadow volumes (S. Laine et al., 2005). They
-// sample the disk. Here areas are exact, overlap is taken account of, and the band replaces their search for edges.
+// "Visibility sampling on GPU and applications" (2007), and of soft shadow volumes (S. Laine et al., 2005).
+// They sample the disk. Here areas are exact, overlap is taken account of, and the band replaces their search
+// for edges.
 #pragma once
 
 #include <cstdint>
@@ -33,22 +34,23 @@ class EdgeHierarchies;
 }
 
 struct SilhouetteOptions {
-  /// Accuracy: scanlines across the disk where more than 20 edges cross it, 4 to 1024. Where edges are dense, three
-  /// quarters of them in each of two directions; where these disagree, more or an exact sweep.
+  /// Accuracy: scanlines across the disk where more than 20 edges cross it, 4 to 1024. Where edges are dense,
+  /// three quarters of them in each of two directions; where these disagree, more or an exact sweep.
   int rows = 64;
   /// false: nothing lies below a horizon; visibility is then O.
   bool horizon = true;
   /// false: certificates only. Receivers without one are listed in `open`.
   bool integrate = true;
-  /// Speed: receivers that more segments cross the disk for are left `open`, not integrated; 0: none is. No effect where
-  /// `integrate` is false.
+  /// Speed: receivers that more segments cross the disk for are left `open`, not integrated; 0: none is. No
+  /// effect where `integrate` is false.
   std::size_t most_segments = 0;
-  /// Speed: receivers that would have to look at more edges than this are left `open`, and so are groups whose lists take as
-  /// long to narrow; 0: none is.
+  /// Speed: receivers that would have to look at more edges than this are left `open`, and so are groups
+  /// whose lists take as long to narrow; 0: none is.
   std::size_t most_listed = 0;
-  /// Accuracy: how far silhouettes of merged faces may lie off the true ones, light radii in the light's plane, 0 to
-  /// 0.1; 0: no faces are merged. Visibility changes by 2.5 times that or less (merge/merged_edges.h). Faces are merged
-  /// only in casters of 1,024 faces or more, and never where `integrate` is false.
+  /// Accuracy: how far silhouettes of merged faces may lie off the true ones, light radii in the light's
+  /// plane, 0 to 0.1; 0: no faces are merged. Visibility changes by 2.5 times that or less
+  /// (merge/merged_edges.h). Faces are merged only in casters of 1,024 faces or more, and never where
+  /// `integrate` is false.
   double tolerance = 4e-3;
   /// Rays a receiver where edges do not close up (no such case is known) or where the offset moves a receiver
   /// behind the light's plane. SilhouetteCounts::fallback says how many there were.
@@ -103,10 +105,10 @@ struct SilhouetteResult {
   SilhouetteCounts counts;
 };
 
-/// Cost: vertices (their box), the band, the band edges near each group, per receiver its part's list (blocks of
-/// eight edges where that is long and the surface is fine), and s log s for s segments across the disk. On all
-/// threads of `rays`; the result does not depend on their number. Throws UsageError for a rectangle, a light of radius 0
-/// or options outside their range, Cancelled.
+/// Cost: vertices (their box), the band, the band edges near each group, per receiver its part's list (blocks
+/// of eight edges where that is long and the surface is fine), and s log s for s segments across the disk. On
+/// all threads of `rays`; the result does not depend on their number. Throws UsageError for a rectangle, a
+/// light of radius 0 or options outside their range, Cancelled.
 SilhouetteResult silhouette_visibility(const Scene& scene, const RayScene& rays,
                                        detail::EdgeHierarchies& hierarchies, const LightShape& light,
                                        const Receivers& receivers, const SilhouetteOptions& options = {},

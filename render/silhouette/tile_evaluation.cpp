@@ -129,7 +129,8 @@ bool Evaluation::is_reached(const Shaft& shaft) const {
                      [&](const Bounds& box) { return !shaft.misses(box.low, box.high); });
 }
 
-/// To narrow a list down for so many receivers takes as long as for each of them to look at most_listed edges.
+/// To narrow a list down for so many receivers takes as long as for each of them to look at most_listed
+/// edges.
 bool Evaluation::is_too_long(std::size_t edges, std::size_t receivers) const {
   return options_.most_listed > 0 && edges > options_.most_listed * receivers;
 }
@@ -230,9 +231,10 @@ bool Evaluation::is_right_at(const glm::dvec2& point, std::size_t i, Workspace& 
   return w.uncertain.are_none(w.receivers[i], DiskSpot::point(point), rounding_.slack);
 }
 
-/// Where merged edges are looked at, aims at a point at which one ray tells where the lowest depth complexity is 0. That
-/// is a point at which merged edges are right. Where a point lies far from all silhouettes they are, if the ray meets no
-/// face: then there is none on the wrong side. Returns false where neither point will do; the receiver then waits.
+/// Where merged edges are looked at, aims at a point at which one ray tells where the lowest depth complexity
+/// is 0. That is a point at which merged edges are right. Where a point lies far from all silhouettes they
+/// are, if the ray meets no face: then there is none on the wrong side. Returns false where neither point
+/// will do; the receiver then waits.
 bool Evaluation::aim_surely(std::size_t i, std::span<const Segment> segments, const DiskPart& part,
                             Workspace& w) const {
   if (!band_.is_merged() || w.certain[i]) return true;

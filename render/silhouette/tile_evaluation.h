@@ -1,12 +1,12 @@
 // Silhouette method, one pass over groups of receivers: from the band's edges to V.
 //
 // In: a band of edges (all faces' or merged ones), a group of up to 64 receivers. Out: V and region of these
-// receivers. A receiver for which the band's merged edges lie too far off the true ones gets no answer here: it
-// waits for a later pass (passes.h).
+// receivers. A receiver for which the band's merged edges lie too far off the true ones gets no answer here:
+// it waits for a later pass (passes.h).
 //
-// A group collects the blocks of edges that matter to it. It narrows the list down to parts of the group and to
-// single receivers. Each receiver projects its edges, and integrates the area that they leave. Last come the
-// group's rays.
+// A group collects the blocks of edges that matter to it. It narrows the list down to parts of the group and
+// to single receivers. Each receiver projects its edges, and integrates the area that they leave. Last come
+// the group's rays.
 #pragma once
 
 #include <array>
@@ -76,10 +76,11 @@ class Evaluation {
         passes_(passes),
         out_(out) {}
 
-  /// Answers the group's receivers that wait for the present pass. Returns the later passes that some of them then
-  /// wait for: bit i stands for pass i.
+  /// Answers the group's receivers that wait for the present pass. Returns the later passes that some of them
+  /// then wait for: bit i stands for pass i.
   std::uint32_t tile(std::size_t group, Workspace& w) const;
-  /// The same for a group that sees all of the light (lit_groups.h); `count`: how many of its receivers are present.
+  /// The same for a group that sees all of the light (lit_groups.h); `count`: how many of its receivers are
+  /// present.
   void light_up(std::size_t group, std::size_t count, Workspace& w) const;
   /// What is known of the band.
   void add_counts(SilhouetteCounts& out) const {

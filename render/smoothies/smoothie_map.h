@@ -1,7 +1,8 @@
 // Method smoothies, step fins: quads of one width along silhouettes, as the light's center sees them.
 //
-// At each silhouette edge stands a fin that faces the center. It is as wide everywhere in the map, and round at the edge's ends. Each
-// texel keeps, of the fins over it, that whose edge is nearest in relation to the width, alpha from 0 to 1, and that edge's height.
+// At each silhouette edge stands a fin that faces the center. It is as wide everywhere in the map, and round
+// at the edge's ends. Each texel keeps, of the fins over it, that whose edge is nearest in relation to the
+// width, alpha from 0 to 1, and that edge's height.
 #pragma once
 
 #include <atomic>
@@ -15,8 +16,8 @@ namespace penumbra::detail {
 
 class SmoothieMap {
  public:
-  /// `casters`: the map whose texels it has. `width`: in the map's coordinates. Cost O(texels near edges), on all threads of the
-  /// arena.
+  /// `casters`: the map whose texels it has. `width`: in the map's coordinates. Cost O(texels near edges), on
+  /// all threads of the arena.
   SmoothieMap(const ShadowMap& casters, const std::vector<MapEdge>& edges, double width,
               tbb::task_arena& threads);
 

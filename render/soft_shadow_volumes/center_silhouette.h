@@ -1,11 +1,13 @@
-// Method soft-shadow-volumes, step silhouettes: the edges that are silhouettes as seen from a point of the light.
+// Method soft-shadow-volumes, step silhouettes: the edges that are silhouettes as seen from a point of the
+// light.
 //
-// In: the light's band, a point of the unit disk. Out: the edges at which the number of layers between the light and what is
-// behind the casters changes, as seen from that point, and by how much.
+// In: the light's band, a point of the unit disk. Out: the edges at which the number of layers between the
+// light and what is behind the casters changes, as seen from that point, and by how much.
 //
-// Layers: a solid hides the light once, though a ray through it meets two faces; a sheet, such as a leaf, hides it by its one
-// face. So a face of a solid counts as half a layer. What has few boundary edges for its size is a solid, with holes or without.
-// Where the light's center is inside a solid, rays leave by one face: each then counts as a layer.
+// Layers: a solid hides the light once, though a ray through it meets two faces; a sheet, such as a leaf,
+// hides it by its one face. So a face of a solid counts as half a layer. What has few boundary edges for its
+// size is a solid, with holes or without. Where the light's center is inside a solid, rays leave by one face:
+// each then counts as a layer.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -17,8 +19,8 @@
 
 namespace penumbra::detail {
 
-/// Layers that one face of an object counts as: 1/2 or 1; one an object. Cost O(1) for meshes that are closed, O(edges) for
-/// others. `center`: of the light; nothing is inside of a distant one.
+/// Layers that one face of an object counts as: 1/2 or 1; one an object. Cost O(1) for meshes that are
+/// closed, O(edges) for others. `center`: of the light; nothing is inside of a distant one.
 std::vector<double> layers_of_faces(const Scene& scene, const RayScene& rays, const CircularLight& light);
 
 /// The edges of the bands of solids and of sheets as one band.

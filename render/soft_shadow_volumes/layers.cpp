@@ -3,8 +3,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Calls `met(object)` for one face after the other until it returns false. The ray goes on where it met a face: in that
-/// face's plane, which hides nothing from there.
+/// Calls `met(object)` for one face after the other until it returns false. The ray goes on where it met a
+/// face: in that face's plane, which hides nothing from there.
 template <class Met>
 void follow(Ray ray, const RayScene& rays, const Met& met) {
   constexpr int kMostFaces = 1'000;

@@ -1,7 +1,7 @@
 // Method soft-shadow-volumes: the light in patches, each with a point from which its silhouettes are seen.
 //
-// The light's square is cut into splits × splits cells. A disk's cells end at its rim. Patches are convex, and together they
-// are the light.
+// The light's square is cut into splits × splits cells. A disk's cells end at its rim. Patches are convex,
+// and together they are the light.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-// Method soft-shadow-volumes: convex polygons in the plane of the light, and how much of the unit disk they hold.
+// Method soft-shadow-volumes: convex polygons in the plane of the light, and how much of the unit disk they
+// hold.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -27,8 +28,9 @@ double distance_to(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b
 /// The half-plane on the left of a → b; requires a ≠ b.
 Chord left_of(const glm::dvec2& a, const glm::dvec2& b);
 
-/// The area of the unit disk behind the segment a b as seen from its center: between the segment, the rays through its ends,
-/// and the rim. Positive where the center lies on the left of a → b, else negative. Exact up to rounding.
+/// The area of the unit disk behind the segment a b as seen from its center: between the segment, the rays
+/// through its ends, and the rim. Positive where the center lies on the left of a → b, else negative. Exact
+/// up to rounding.
 double area_behind(const glm::dvec2& a, const glm::dvec2& b);
 
 }  // namespace penumbra::detail

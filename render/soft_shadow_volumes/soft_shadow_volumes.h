@@ -1,20 +1,22 @@
-// The method soft-shadow-volumes: hard shadows, corrected in the penumbra wedges of the silhouettes that the light's center
-// sees.
+// The method soft-shadow-volumes: hard shadows, corrected in the penumbra wedges of the silhouettes that the
+// light's center sees.
 //
 // In: casters, a light, receivers, into how many patches the light is split. Out: V of each receiver.
 //
 //   1. silhouettes  the edges that are silhouettes as seen from a patch's center (center_silhouette.h)
 //   2. constant     the layers that hide the patch's center from the receiver, by rays (layers.h)
-//   3. wedges       each silhouette edge, projected from the receiver onto the light, adds or takes away the area behind it
-//                   as seen from the center (polygon_area.h, wedges.h)
+//   3. wedges       each silhouette edge, projected from the receiver onto the light, adds or takes away the
+//                   area behind it as seen from the center (polygon_area.h, wedges.h)
 //
-// What a receiver does not see is the sum of what its layers hide, at most all of a patch; the patches add up.
+// What a receiver does not see is the sum of what its layers hide, at most all of a patch; the patches add
+// up.
 //
-// U. Assarsson, T. Akenine-Möller, "A geometry-based soft shadow volume algorithm using graphics hardware" (2003); U. Assarsson,
-// M. Dougherty, M. Mounier, T. Akenine-Möller, "An optimized soft shadow volume algorithm with real-time performance" (2003), for
-// the split; "Casting Shadows in Real Time" (2009), sections 5.3.2.2 and 5.3.2.3. They look areas up in a table of four
-// dimensions, and draw a wedge as a volume to find its receivers. Here the area is exact, and receivers find their edges. The
-// horizon is one more border of the light: where it hides the center, another point above it takes its place.
+// U. Assarsson, T. Akenine-Möller, "A geometry-based soft shadow volume algorithm using graphics hardware"
+// (2003); U. Assarsson, M. Dougherty, M. Mounier, T. Akenine-Möller, "An optimized soft shadow volume
+// algorithm with real-time performance" (2003), for the split; "Casting Shadows in Real Time" (2009),
+// sections 5.3.2.2 and 5.3.2.3. They look areas up in a table of four dimensions, and draw a wedge as a
+// volume to find its receivers. Here the area is exact, and receivers find their edges. The horizon is one
+// more border of the light: where it hides the center, another point above it takes its place.
 #pragma once
 
 #include <cstdint>
@@ -59,9 +61,10 @@ struct SoftShadowVolumeResult {
   SoftShadowVolumeCounts counts;
 };
 
-/// `edges`: of the scene, in the frame of rays. Requires a light that is no point. Cost for each patch: the band, the silhouette
-/// edges near each tile, and for each receiver its wedges and a ray, or a ray a face where the center is hidden in a
-/// penumbra. On all threads of `rays`; the result does not depend on their number. Throws Cancelled.
+/// `edges`: of the scene, in the frame of rays. Requires a light that is no point. Cost for each patch: the
+/// band, the silhouette edges near each tile, and for each receiver its wedges and a ray, or a ray a face
+/// where the center is hidden in a penumbra. On all threads of `rays`; the result does not depend on their
+/// number. Throws Cancelled.
 SoftShadowVolumeResult soft_shadow_volumes(const Scene& scene, const RayScene& rays,
                                            const detail::SceneEdges& edges, const LightShape& light,
                                            const Receivers& receivers,

@@ -16,7 +16,8 @@ Wedges::Wedges(const WedgeCall& call, const UnitLight& unit, const LightPatches&
       edges_(silhouette_.band),
       rounding_{certificate_slack(band.band.extent), band.band.extent} {}
 
-/// The patch above the receiver's horizon, and a point of it: its center, or where that is below the horizon another one.
+/// The patch above the receiver's horizon, and a point of it: its center, or where that is below the horizon
+/// another one.
 CenterTask Wedges::begin(const TileReceiver& receiver, WedgeMemory& memory) const {
   const Chord& horizon = receiver.horizon;
   CenterTask task{receiver.index, patch_.center, 0.0, 0.0, false};
@@ -36,8 +37,8 @@ CenterTask Wedges::begin(const TileReceiver& receiver, WedgeMemory& memory) cons
   return task;
 }
 
-/// The area of the patch above the horizon behind the segment a b, as seen from the task's aim: positive where that lies on the
-/// left of a → b, else negative.
+/// The area of the patch above the horizon behind the segment a b, as seen from the task's aim: positive
+/// where that lies on the left of a → b, else negative.
 double Wedges::area_behind_edge(const glm::dvec2& a, const glm::dvec2& b, const CenterTask& task, bool cut,
                                 WedgeMemory& memory) const {
   if (patches_.whole_disk && !cut && task.aim == glm::dvec2(0.0)) return area_behind(a, b);
@@ -52,8 +53,8 @@ double Wedges::area_behind_edge(const glm::dvec2& a, const glm::dvec2& b, const 
   return turn > 0.0 ? area : -area;
 }
 
-/// Where an edge runs through the aim, no ray tells on which side it is: the aim moves to the point of a few beside it that is
-/// farthest from all edges.
+/// Where an edge runs through the aim, no ray tells on which side it is: the aim moves to the point of a few
+/// beside it that is farthest from all edges.
 void Wedges::aim_beside_edges(const TileReceiver& receiver, CenterTask& task, WedgeMemory& memory) const {
   constexpr double kTooNear = 1e-5, kAside = 0.1;  // radii of the light; share of the way to a corner
   constexpr std::size_t kCandidates = 4;

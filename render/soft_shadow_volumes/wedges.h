@@ -1,4 +1,5 @@
-// Method soft-shadow-volumes, step wedges: from a patch's silhouette to what receivers see of the patch, tile by tile.
+// Method soft-shadow-volumes, step wedges: from a patch's silhouette to what receivers see of the patch, tile
+// by tile.
 #pragma once
 
 #include <cstdint>

@@ -64,7 +64,8 @@ class Blocks {
   std::array<int, 3> blocks_{};
 };
 
-/// Whether no place of the blocks from `low` to before `high` is hidden from any of the light. Behind the light nothing is lit.
+/// Whether no place of the blocks from `low` to before `high` is hidden from any of the light. Behind the
+/// light nothing is lit.
 bool are_lit(const Blocks& blocks, const std::array<int, 3>& low, const std::array<int, 3>& high,
              const detail::LitBoxes& boxes, const CircularLight& light) {
   Bounds box;

@@ -1,16 +1,17 @@
-// What receivers see of the sun as it moves: the fraction at any time, and the times at which it begins and ends.
+// What receivers see of the sun as it moves: the fraction at any time, and the times at which it begins and
+// ends.
 //
 //   casters, receivers   as in render/visibility.h
 //   sky                  where the scene lies on earth
 //   time                 seconds since 1970 UTC
 //
-// The sun shines as far as it stands above the horizontal plane: below it everything is dark. While the plane cuts the disk, a receiver sees
-// the smaller of what its own horizon and casters leave and of what the plane and casters leave. That is exact unless both planes
-// cut the disk at the same time.
+// The sun shines as far as it stands above the horizontal plane: below it everything is dark. While the plane
+// cuts the disk, a receiver sees the smaller of what its own horizon and casters leave and of what the plane
+// and casters leave. That is exact unless both planes cut the disk at the same time.
 //
-// The fraction is a continuous function of time without noise, so that its roots can be found by bisection. A contact is a root of V = 10⁻⁵
-// or of V = 1 - 10⁻⁵: where a straight edge moves across the disk by h of its radius, V is .6 h^1.5, and 10⁻⁵ is passed .04 s after the
-// true contact.
+// The fraction is a continuous function of time without noise, so that its roots can be found by bisection. A
+// contact is a root of V = 10⁻⁵ or of V = 1 - 10⁻⁵: where a straight edge moves across the disk by h of its
+// radius, V is .6 h^1.5, and 10⁻⁵ is passed .04 s after the true contact.
 #pragma once
 
 #include <cstdint>
@@ -58,12 +59,14 @@ class SunExposure {
   SunExposure(const Casters& casters, const Receivers& receivers, const SunSky& sky,
               VisibilityOptions options = {});
 
-  /// The fraction that each receiver sees at that time. Receivers are grouped and hierarchies made by the first call.
+  /// The fraction that each receiver sees at that time. Receivers are grouped and hierarchies made by the
+  /// first call.
   std::vector<float> seen(double time);
-  /// The contacts between two times, in order of receivers and times, off by `precision` seconds at most; `before` and `after`: what is
-  /// seen then. Found is what is different before and after: a glimpse of the sun between two times of shade is not, so that the
-  /// times should be close. Silhouettes are not moved (option silhouette-tolerance) unless the options say so. Cost: as many
-  /// visibilities a contact as halvings of the time between.
+  /// The contacts between two times, in order of receivers and times, off by `precision` seconds at most;
+  /// `before` and `after`: what is seen then. Found is what is different before and after: a glimpse of the
+  /// sun between two times of shade is not, so that the times should be close. Silhouettes are not moved
+  /// (option silhouette-tolerance) unless the options say so. Cost: as many visibilities a contact as
+  /// halvings of the time between.
   std::vector<SunContact> contacts(double from, std::span<const float> before, double to,
                                    std::span<const float> after, double precision = 0.25);
 

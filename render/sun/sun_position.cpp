@@ -88,8 +88,8 @@ Nutation nutation(double t) {
       (9.20 * cosine(node) + 0.57 * cosine(sun) + 0.10 * cosine(moon) - 0.09 * cosine(2.0 * node)) * kSecond};
 }
 
-/// Degrees by which air raises what stands at this elevation. Below -1 the same as there: nothing is seen so low, and it stays
-/// continuous.
+/// Degrees by which air raises what stands at this elevation. Below -1 the same as there: nothing is seen so
+/// low, and it stays continuous.
 double refraction(double elevation, const SunSite& site) {
   const double h = std::max(elevation, -1.0);
   return site.pressure / 1010.0 * 283.0 / (273.0 + site.temperature) * 1.02 / 60.0 /
@@ -122,7 +122,8 @@ SunPosition sun_position(double unix_time, const SunSite& site) {
   const double longitude = sun.longitude + nutated.longitude - kAberration / sun.distance;
   const double obliquity = 23.0 + 26.0 / 60.0 + 21.448 * kSecond -
                            t * (46.8150 + t * (0.00059 - t * 0.001813)) * kSecond + nutated.obliquity;
-  // Right ascension and declination, then the hour angle. Whole days are taken out before they are multiplied.
+  // Right ascension and declination, then the hour angle. Whole days are taken out before they are
+  // multiplied.
   const double ascension = std::atan2(cosine(obliquity) * sine(longitude), cosine(longitude)) / kDegree;
   const double sin_declination = sine(obliquity) * sine(longitude),
                cos_declination = std::sqrt(1.0 - sin_declination * sin_declination);

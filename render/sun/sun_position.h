@@ -1,12 +1,14 @@
-// Where the sun stands: its direction and size at a time and a place on earth, as a distant light of the scene.
+// Where the sun stands: its direction and size at a time and a place on earth, as a distant light of the
+// scene.
 //
 // In: seconds since 1970 UTC, latitude and longitude. Out: azimuth, elevation, radius; the DistantLight.
 //
-// J. Meeus, "Astronomical Formulae for Calculators" (1982), chapter 18: the sun's longitude after Newcomb with the corrections for
-// planets and moon. "Astronomical Algorithms" (1991): nutation and obliquity (chapter 21), sidereal time (11), parallax (39),
-// refraction after Sæmundsson (15.4). Ten more terms of planets are ours: their amplitudes are fitted to the positions of the
-// library ERFA. From 1900 to 2100 the longitude is then off by 1.4" RMS and 5.5" at most (14" without these terms); the sun moves by
-// 15" a second. UT1 is taken to be UTC, from which it differs by less than a second.
+// J. Meeus, "Astronomical Formulae for Calculators" (1982), chapter 18: the sun's longitude after Newcomb
+// with the corrections for planets and moon. "Astronomical Algorithms" (1991): nutation and obliquity
+// (chapter 21), sidereal time (11), parallax (39), refraction after Sæmundsson (15.4). Ten more terms of
+// planets are ours: their amplitudes are fitted to the positions of the library ERFA. From 1900 to 2100 the
+// longitude is then off by 1.4" RMS and 5.5" at most (14" without these terms); the sun moves by 15" a
+// second. UT1 is taken to be UTC, from which it differs by less than a second.
 #pragma once
 
 #include "penumbra/mesh/types.h"
@@ -38,7 +40,8 @@ struct SunPosition {
   double distance = 1.0;
 };
 
-/// Throws UsageError where the time is not finite, or the site's numbers are outside of their domain. Cost O(1).
+/// Throws UsageError where the time is not finite, or the site's numbers are outside of their domain. Cost
+/// O(1).
 SunPosition sun_position(double unix_time, const SunSite& site);
 
 /// How a scene lies on earth. East is north × up.

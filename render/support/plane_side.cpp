@@ -10,11 +10,13 @@ namespace {
 constexpr double kUnit = 0x1p-53;
 /// Roundings of every coordinate; see the header.
 constexpr double kCoordinateRoundings = 6.0;
-/// D is a sum of products of three differences. Each is rounded eight times at most: three differences, two products, one
-/// difference of products, two sums. Nine make up for terms of higher order and for the rounding of `size`.
+/// D is a sum of products of three differences. Each is rounded eight times at most: three differences, two
+/// products, one difference of products, two sums. Nine make up for terms of higher order and for the
+/// rounding of `size`.
 constexpr double kProductRoundings = 9.0;
 
-/// The cross product of absolute values with a sum in place of the difference: what its rounding is a part of.
+/// The cross product of absolute values with a sum in place of the difference: what its rounding is a part
+/// of.
 Vec3 cross_sizes(const Vec3& a, const Vec3& b) {
   const Vec3 s = glm::abs(a), t = glm::abs(b);
   return {s.y * t.z + s.z * t.y, s.z * t.x + s.x * t.z, s.x * t.y + s.y * t.x};

@@ -1,9 +1,11 @@
 // Method variance, step table: means of depths over any window of the map, each by four look-ups.
 //
-// In: a shadow map, the depths of its top and bottom. Out: summed-area tables of the depth z, from 0 at the top to 1 at the bottom,
-// of its warps exp(c (z - 1)) and -exp(-c z), and of their squares. Where the map has no caster z is 1.
+// In: a shadow map, the depths of its top and bottom. Out: summed-area tables of the depth z, from 0 at the
+// top to 1 at the bottom, of its warps exp(c (z - 1)) and -exp(-c z), and of their squares. Where the map has
+// no caster z is 1.
 //
-// F. Crow, "Summed-area tables for texture mapping" (1984). Sums are in double: their rounding is 1e-16 of the whole map.
+// F. Crow, "Summed-area tables for texture mapping" (1984). Sums are in double: their rounding is 1e-16 of
+// the whole map.
 #pragma once
 
 #include <array>

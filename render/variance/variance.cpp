@@ -16,7 +16,8 @@ namespace {
 
 using namespace detail;
 
-/// Accuracy. Depths that are this close, of the whole range, are not told apart: a surface would shadow itself.
+/// Accuracy. Depths that are this close, of the whole range, are not told apart: a surface would shadow
+/// itself.
 constexpr double kSameDepth = 1e-4;
 /// Accuracy. Where a larger share is not nearer than the receiver, there is no blocker.
 constexpr double kNoBlocker = 1.0 - 1e-4;
@@ -45,8 +46,8 @@ class Lookup {
   }
 
  private:
-  /// Chebyshev's bound on the share of a window whose values are not below one, by their mean and mean square. `grain`: values that
-  /// are not told apart.
+  /// Chebyshev's bound on the share of a window whose values are not below one, by their mean and mean
+  /// square. `grain`: values that are not told apart.
   static double bound(double value, double mean, double mean2, double grain) {
     const double past = value - mean;
     if (!(past > 0.0)) return 1.0;

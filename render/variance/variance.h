@@ -1,19 +1,22 @@
 // The method variance: percentage-closer soft shadows from means and variances of depths.
 //
-// In: casters, a light, receivers. Out: V of each receiver, by a shadow map of the light's center alone, with a number of look-ups
-// that does not depend on the light's size.
+// In: casters, a light, receivers. Out: V of each receiver, by a shadow map of the light's center alone, with
+// a number of look-ups that does not depend on the light's size.
 //
-//   1. map     what the center sees first (center_view/shadow_map.h), and summed-area tables of its depths (moment_table.h)
-//   2. search  the mean depth z of the window that the light covers of the highest caster's plane, and the share p of it that is not
-//              nearer to the light than the receiver: the blocker's depth is (z - p z_receiver) / (1 - p)
+//   1. map     what the center sees first (center_view/shadow_map.h), and summed-area tables of its depths
+//              (moment_table.h)
+//   2. search  the mean depth z of the window that the light covers of the highest caster's plane, and the
+//              share p of it that is not nearer to the light than the receiver: the blocker's depth is (z - p
+//              z_receiver) / (1 - p)
 //   3. filter  that share, of the window that the light covers of the blocker's plane
 //
-// The share is Chebyshev's bound, p = σ² / (σ² + (e - μ)²) for a warped depth e of the receiver beyond the mean μ, else 1; the lesser
-// one of two warps. It is exact where a flat blocker and a flat receiver are parallel to the light, and else too large: light leaks.
+// The share is Chebyshev's bound, p = σ² / (σ² + (e - μ)²) for a warped depth e of the receiver beyond the
+// mean μ, else 1; the lesser one of two warps. It is exact where a flat blocker and a flat receiver are
+// parallel to the light, and else too large: light leaks.
 //
-// W. Donnelly, A. Lauritzen, "Variance shadow maps" (2006); A. Lauritzen, M. McCool, "Layered variance shadow maps" (2008), for
-// the exponential warp; B. Yang and others, "Variance soft shadow mapping" (2010), for step 2; "Casting Shadows in Real Time"
-// (2009), sections 4.2 and 5.2.2. A disk counts as a square of its area.
+// W. Donnelly, A. Lauritzen, "Variance shadow maps" (2006); A. Lauritzen, M. McCool, "Layered variance shadow
+// maps" (2008), for the exponential warp; B. Yang and others, "Variance soft shadow mapping" (2010), for step
+// 2; "Casting Shadows in Real Time" (2009), sections 4.2 and 5.2.2. A disk counts as a square of its area.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -38,8 +41,8 @@ struct VarianceOptions {
   double least_share = 0.0;
 };
 
-/// Requires a light that is no point. The horizon is a factor of its own. Cost O(faces + texels), and O(1) a receiver. On
-/// all threads; the result does not depend on their number. Throws Cancelled.
+/// Requires a light that is no point. The horizon is a factor of its own. Cost O(faces + texels), and O(1) a
+/// receiver. On all threads; the result does not depend on their number. Throws Cancelled.
 MethodResult variance_visibility(const Scene& scene, const AreaLight& light, const Receivers& receivers,
                                  const VarianceOptions& options, bool keep_textures, tbb::task_arena& threads,
                                  const Progress& progress);

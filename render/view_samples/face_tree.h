@@ -1,7 +1,7 @@
 // Method view-samples, step faces: which faces may hide some of the light from a few receivers.
 //
-// In: the casters, a frame of the light, receivers that lie close together. Out: the faces whose boxes reach into the shaft
-// between those receivers and the light.
+// In: the casters, a frame of the light, receivers that lie close together. Out: the faces whose boxes reach
+// into the shaft between those receivers and the light.
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ struct LitFace {
 
 class FaceTree {
  public:
-  /// `left_out`: one flag an object, or empty. Faces wholly behind the light's plane are left out. Cost O(faces log faces),
-  /// on the calling arena's threads.
+  /// `left_out`: one flag an object, or empty. Faces wholly behind the light's plane are left out. Cost
+  /// O(faces log faces), on the calling arena's threads.
   FaceTree(const Scene& scene, const UnitLight& unit, const std::vector<char>& left_out);
 
   /// Into `out` the numbers of the faces in a shaft; it is replaced.

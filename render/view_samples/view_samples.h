@@ -1,15 +1,19 @@
-// The method view-samples: light samples hidden by the masks of half-planes, face by face; no silhouettes, no rays.
+// The method view-samples: light samples hidden by the masks of half-planes, face by face; no silhouettes, no
+// rays.
 //
-// In: casters, a light, receivers, how many light samples. Out: V of each receiver, the fraction of its samples that no face
-// hides. Its samples are those of the method `reference`: both agree but where a ray grazes an edge within rounding.
+// In: casters, a light, receivers, how many light samples. Out: V of each receiver, the fraction of its
+// samples that no face hides. Its samples are those of the method `reference`: both agree but where a ray
+// grazes an edge within rounding.
 //
-//   1. faces  those that reach between a tile of receivers and the light (face_tree.h); long lists again for parts of the tile
+//   1. faces  those that reach between a tile of receivers and the light (face_tree.h); long lists again for
+//             parts of the tile
 //   2. masks  each face hides the samples within three half-planes (sample_masks.h)
 //
-// S. Laine, T. Aila, "Hierarchical penumbra casting" (2005); E. Eisemann, X. Décoret, "Visibility sampling on GPU and
-// applications" (2007); E. Sintorn, E. Eisemann, U. Assarsson, "Sample-based visibility for soft shadows using alias-free shadow
-// maps" (2008); "Casting Shadows in Real Time" (2009), section 5.3.3. They look masks up in a table by the line's angle and
-// distance, which moves edges by the table's grain. Here every sample is compared with every line.
+// S. Laine, T. Aila, "Hierarchical penumbra casting" (2005); E. Eisemann, X. Décoret, "Visibility sampling on
+// GPU and applications" (2007); E. Sintorn, E. Eisemann, U. Assarsson, "Sample-based visibility for soft
+// shadows using alias-free shadow maps" (2008); "Casting Shadows in Real Time" (2009), section 5.3.3. They
+// look masks up in a table by the line's angle and distance, which moves edges by the table's grain. Here
+// every sample is compared with every line.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -49,8 +53,9 @@ struct ViewSampleResult {
   ViewSampleCounts counts;
 };
 
-/// Requires a light that is no point. Cost: the faces, those near each tile, and for each receiver n samples times the faces across
-/// its light. On all threads; the result does not depend on their number. Throws Cancelled.
+/// Requires a light that is no point. Cost: the faces, those near each tile, and for each receiver n samples
+/// times the faces across its light. On all threads; the result does not depend on their number. Throws
+/// Cancelled.
 ViewSampleResult view_sample_visibility(const Scene& scene, const LightShape& light,
                                         const Receivers& receivers, const ViewSampleOptions& options,
                                         tbb::task_arena& threads, const Progress& progress);

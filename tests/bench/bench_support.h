@@ -1,4 +1,5 @@
-// What the benchmarks share: scenes, peak memory, references. Each part measures one subject and adds its figures to a record.
+// What the benchmarks share: scenes, peak memory, references. Each part measures one subject and adds its
+// figures to a record.
 #pragma once
 
 #include <sys/resource.h>
@@ -22,7 +23,8 @@ namespace penumbra::bench {
 
 using SceneNames = std::vector<std::string>;
 
-/// A scene of data/scenes, or else of data/regressions/scenes, that has one light, by its name without folder and extension.
+/// A scene of data/scenes, or else of data/regressions/scenes, that has one light, by its name without folder
+/// and extension.
 inline Scene bench_scene(const std::string& name) {
   const std::filesystem::path data(PENUMBRA_DATA), file = data / "scenes" / (name + ".json");
   return load_scene(std::filesystem::exists(file) ? file : data / "regressions/scenes" / (name + ".json"))
@@ -86,20 +88,22 @@ struct Truth {
   }
 };
 
-/// accuracy_bench.cpp: the frame of every method and its error against the silhouette method, on the floor and on the casters.
+/// accuracy_bench.cpp: the frame of every method and its error against the silhouette method, on the floor
+/// and on the casters.
 void bench_accuracy(Record& record, const SceneNames& scenes);
 
 /// judge_bench.cpp: methods against rays in double without offset (tests/oracle).
 void bench_judge(Record& record, const SceneNames& scenes);
 
-/// d_buffer_bench.cpp: the D-buffer against rays of the same error; its cost by its size, by faces and by the light's radius.
+/// d_buffer_bench.cpp: the D-buffer against rays of the same error; its cost by its size, by faces and by the
+/// light's radius.
 void bench_d_buffer(Record& record, const SceneNames& scenes);
 
 /// d_buffer_judge_bench.cpp: the D-buffer's options against rays in double without offset.
 void bench_d_buffer_judge(Record& record, const SceneNames& scenes);
 
-/// d_buffer_check_bench.cpp: the D-buffer with and without its rays against the silhouette method, at three sizes. No
-/// scenes: all.
+/// d_buffer_check_bench.cpp: the D-buffer with and without its rays against the silhouette method, at three
+/// sizes. No scenes: all.
 void bench_d_buffer_check(Record& record, const SceneNames& scenes);
 
 /// silhouette_bench.cpp: the silhouette method against rays, visibility alone; what is certified.

@@ -1,4 +1,5 @@
-// The D-buffer with and without its rays (step 8), at three sizes. The silhouette method is taken as the truth.
+// The D-buffer with and without its rays (step 8), at three sizes. The silhouette method is taken as the
+// truth.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -17,8 +18,8 @@ struct Size {
 constexpr Size kSizes[] = {{160, 120}, {640, 480}, {1280, 960}};
 constexpr double kNearlyNone = 1e-4;  // of the disk: above the silhouette method's own rounding
 
-/// Root mean square errors: where the truth is penumbra; everywhere; in the penumbra of the picture's outermost rows and
-/// columns, and of the three next to them.
+/// Root mean square errors: where the truth is penumbra; everywhere; in the penumbra of the picture's
+/// outermost rows and columns, and of the three next to them.
 struct Errors {
   double penumbra = 0.0, all = 0.0, border = 0.0, inside = 0.0;
 };

@@ -1,4 +1,5 @@
-// Frame by frame while the light moves and the camera stays: all made anew against what is kept from the frame before.
+// Frame by frame while the light moves and the camera stays: all made anew against what is kept from the
+// frame before.
 #include <chrono>
 #include <ctime>
 #include <string>

@@ -1,4 +1,5 @@
-// What accuracy costs in time: `./run bench [PART [SCENE...]] [--write]`. Figures are printed and, with --write, kept as data.
+// What accuracy costs in time: `./run bench [PART [SCENE...]] [--write]`. Figures are printed and, with
+// --write, kept as data.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -119,7 +120,8 @@ void print_help() {
       "which commit.");
 }
 
-/// Returns the exit code. Parts are written whole, so that all their figures are of one run. Throws what loading, rendering and writing throw.
+/// Returns the exit code. Parts are written whole, so that all their figures are of one run. Throws what
+/// loading, rendering and writing throw.
 int run(const Arguments& arguments) {
   if (!arguments.file.empty() && !arguments.scenes.empty()) {
     std::fprintf(stderr, "penumbra_bench: --write keeps whole parts; name no scenes\n");

@@ -1,5 +1,5 @@
-// Whether a frame pops: a light moves for a hundred frames, and the change from each to the next is held against the change
-// that rays find, where the plan changes and elsewhere.
+// Whether a frame pops: a light moves for a hundred frames, and the change from each to the next is held
+// against the change that rays find, where the plan changes and elsewhere.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -30,8 +30,8 @@ std::string choices_of(const MethodFrame& frame) {
   return text;
 }
 
-/// A change from one frame to the next against that of rays, over the pixels at which the light is partly seen in either by
-/// rays: RMS, and the largest difference.
+/// A change from one frame to the next against that of rays, over the pixels at which the light is partly
+/// seen in either by rays: RMS, and the largest difference.
 struct Change {
   double own = 0.0, of_rays = 0.0, apart = 0.0, largest = 0.0;
 };

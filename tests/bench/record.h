@@ -1,5 +1,5 @@
-// Figures of the benchmarks: printed as they are measured, and written as data. The tables of docs/ are made from the files
-// (tests/docs/tables.py).
+// Figures of the benchmarks: printed as they are measured, and written as data. The tables of docs/ are made
+// from the files (tests/docs/tables.py).
 #pragma once
 
 #include <filesystem>
@@ -27,9 +27,9 @@ class Record {
   /// What draws, as OpenGL names it.
   void set_renderer(const std::string& renderer) { renderer_ = renderer; }
 
-  /// Writes the machine and the figures as JSON. Where the file exists its parts of the same names are replaced, all others stay.
-  /// Throws SystemError where it cannot be written, std::runtime_error where it is no file of figures or was measured on another
-  /// processor.
+  /// Writes the machine and the figures as JSON. Where the file exists its parts of the same names are
+  /// replaced, all others stay. Throws SystemError where it cannot be written, std::runtime_error where it is
+  /// no file of figures or was measured on another processor.
   void write(const std::filesystem::path& path, const std::string& commit) const;
 
  private:

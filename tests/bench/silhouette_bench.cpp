@@ -1,4 +1,5 @@
-// The silhouette method against rays, visibility alone; what is certified; how frames grow with faces and with the light.
+// The silhouette method against rays, visibility alone; what is certified; how frames grow with faces and
+// with the light.
 #include <algorithm>
 #include <cstdio>
 #include <string>

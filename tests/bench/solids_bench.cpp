@@ -1,4 +1,5 @@
-// Solids: time, triangles and share of proved triangles; soundness by CGAL; points and proved triangles by rays in double.
+// Solids: time, triangles and share of proved triangles; soundness by CGAL; points and proved triangles by
+// rays in double.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -35,8 +36,9 @@ struct Subject {
   std::vector<TriangleMesh> meshes;
 };
 
-/// Points on triangles that are called proved, and contradicted by some ray. The umbra of one convex body is exact: its triangles lie in
-/// the body's lit faces and in planes that touch the light, so that it is points a little inside that are in umbra.
+/// Points on triangles that are called proved, and contradicted by some ray. The umbra of one convex body is
+/// exact: its triangles lie in the body's lit faces and in planes that touch the light, so that it is points
+/// a little inside that are in umbra.
 std::size_t contradicted(const ShadowSolid& solid, bool umbra, const oracle::Oracle& oracle,
                          const oracle::Light& light) {
   std::vector<std::size_t> proved;

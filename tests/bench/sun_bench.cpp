@@ -1,4 +1,5 @@
-// A year of hourly suns on 10,000 receivers of a city block: exact areas against 64 rays a receiver, time by time in turns.
+// A year of hourly suns on 10,000 receivers of a city block: exact areas against 64 rays a receiver, time by
+// time in turns.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,6 @@
-// A heightfield of N × N posts under a low sun: time and memory of its tiles, of rays and of exact areas on 10,000 posts, exact areas up to 2,000² posts. Memory is the process's peak so
-// far: sizes grow, and what takes most comes last.
+// A heightfield of N × N posts under a low sun: time and memory of its tiles, of rays and of exact areas on
+// 10,000 posts, exact areas up to 2,000² posts. Memory is the process's peak so far: sizes grow, and what
+// takes most comes last.
 #include <cmath>
 #include <cstdio>
 #include <random>

@@ -16,7 +16,8 @@ bool has_openvdb() {
   return text.find("libopenvdb") != std::string::npos;
 }
 
-/// Whether a field is written as .vdb. Where the library was built without OpenVDB, whether it says what to install.
+/// Whether a field is written as .vdb. Where the library was built without OpenVDB, whether it says what to
+/// install.
 bool writes_vdb(const penumbra::LightField& field, bool built_with_openvdb) {
   try {
     penumbra::write_light_field("seen.vdb", field);

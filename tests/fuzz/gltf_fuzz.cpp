@@ -1,4 +1,5 @@
-// libFuzzer target for glTF: any bytes give a scene, a SceneError or a MeshError, nothing else. Buffers in other files are not found.
+// libFuzzer target for glTF: any bytes give a scene, a SceneError or a MeshError, nothing else. Buffers in
+// other files are not found.
 #include <cstdint>
 #include <cstdlib>
 #include <span>

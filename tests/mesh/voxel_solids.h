@@ -1,4 +1,5 @@
-// Solids of unit cubes on a grid, as meshes that share corners: many edges with four faces, following each other.
+// Solids of unit cubes on a grid, as meshes that share corners: many edges with four faces, following each
+// other.
 #pragma once
 
 #include <array>

@@ -58,8 +58,8 @@ TEST(DistantOracle, HalfPlanesAtAnyHeightAndScale) {
       }
 }
 
-/// Under a light from any direction a half-plane is a chord: of the plane through x and the edge, with normal n, at
-/// δ = n·c/(r|m × n|), c = -m/|m|.
+/// Under a light from any direction a half-plane is a chord: of the plane through x and the edge, with normal
+/// n, at δ = n·c/(r|m × n|), c = -m/|m|.
 TEST(DistantOracle, ChordsOfAnyDirection) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -105,7 +105,8 @@ TEST(DistantOracle, HoleInAPlate) {
           << radius << ' ' << off;
 }
 
-// A wall stands just beside x and carries a roof: both end at the same edge, and rays near it are blocked once.
+// A wall stands just beside x and carries a roof: both end at the same edge, and rays near it are blocked
+// once.
 TEST(DistantOracle, TwoPlanesAtAnEdgeNearTheReceiver) {
   for (const double away : {1e-12, 1e-7, 1e-2})
     for (const double d : {0.0625, 0.5, 0.875}) {
@@ -141,8 +142,8 @@ TEST(DistantOracle, AngleZeroIsOneRay) {
   EXPECT_EQ(seen({make_sheet(1, 0, 1, -1, 1)}, Vec3(0.0), point), 0) << "an edge blocks";
 }
 
-/// The mean over many receivers of |V - V of the distant light|, for disks of the same angle. Samples of one seed lie at
-/// the same place of either disk, so that only geometry differs.
+/// The mean over many receivers of |V - V of the distant light|, for disks of the same angle. Samples of one
+/// seed lie at the same place of either disk, so that only geometry differs.
 double difference_of_disks(const Oracle& oracle, const std::vector<Vec3>& receivers, double distance) {
   const DistantLight sun{{0.6, -0.8, 0.0}, 0.53};
   const double radius = distance * std::tan(0.53 / 360 * std::numbers::pi);
@@ -169,8 +170,8 @@ TEST(DistantOracle, IsTheLimitOfDisks) {
   double difference[4];
   const double distances[] = {1e3, 1e4, 1e6, 1e8};
   for (int i = 0; i < 4; ++i) difference[i] = difference_of_disks(oracle, receivers, distances[i]);
-  // Receivers are up to 2 units apart and the penumbra's width is .0093 of the distance to the caster: over 1e3 units a
-  // disk's image moves by a good part of its radius.
+  // Receivers are up to 2 units apart and the penumbra's width is .0093 of the distance to the caster: over
+  // 1e3 units a disk's image moves by a good part of its radius.
   EXPECT_GT(difference[0], 0.03);
   EXPECT_LT(difference[0], 0.6);
   EXPECT_NEAR(difference[0] / difference[1], 10, 2.5);

@@ -19,8 +19,8 @@ bool blocks(const Ray& ray, const Corners& face) {
   if (first * second < 0) return false;
   const int third = side_of_edge(ray, face.c, face.a);
   if (first * third < 0 || second * third < 0) return false;
-  // The sum of the three determinants is (q - x)·N, so their common sign is its sign. Where all are 0, the line lies in
-  // the plane.
+  // The sum of the three determinants is (q - x)·N, so their common sign is its sign. Where all are 0, the
+  // line lies in the plane.
   const int across = first != 0 ? first : second != 0 ? second : third;
   return across != 0 && across == side_of_face(ray.x, face) && is_before_light(ray, face);
 }
@@ -58,8 +58,9 @@ double longest(const Ray& ray) {
                      : std::numeric_limits<double>::infinity();
 }
 
-// Slab test (Kay, Kajiya 1986) that never misses a box that the ray meets. A parameter is a quotient of two differences:
-// three roundings, or two where the direction is exact. Both ends of an interval are moved outward by 4u of their size, and by what underflow can cost.
+// Slab test (Kay, Kajiya 1986) that never misses a box that the ray meets. A parameter is a quotient of two
+// differences: three roundings, or two where the direction is exact. Both ends of an interval are moved
+// outward by 4u of their size, and by what underflow can cost.
 bool meets(const Vec3& start, const Vec3& direction, double end, const Bounds& box) {
   double near = 0.0, far = end;
   for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// The oracle against rational numbers on rays that are degenerate on purpose, and the rule that faces in the receiver's
-// plane hide nothing.
+// The oracle against rational numbers on rays that are degenerate on purpose, and the rule that faces in the
+// receiver's plane hide nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,9 +21,9 @@ struct Case {
   Light light;
 };
 
-/// Faces with small integers as corners, one more of which the ray aims at: at a corner, a point of an edge, a point of
-/// the plane. All of it may be far from the origin, tiny, or off by one unit in the last place. The ray ends at a disk, or
-/// it has a direction and no end.
+/// Faces with small integers as corners, one more of which the ray aims at: at a corner, a point of an edge,
+/// a point of the plane. All of it may be far from the origin, tiny, or off by one unit in the last place.
+/// The ray ends at a disk, or it has a direction and no end.
 Case degenerate_case(Random& random, bool distant) {
   std::vector<Vec3> points;
   for (int i = 0; i < 6; ++i) points.push_back(random.lattice(4));
@@ -220,7 +220,8 @@ TEST(OracleProperty, FacesInTheReceiversPlaneHideNothing) {
   }
 }
 
-/// An own face is named by its id, however far x lies off its plane; the same face of another object does cast.
+/// An own face is named by its id, however far x lies off its plane; the same face of another object does
+/// cast.
 TEST(OracleProperty, OwnFacesAreToldByTheirIds) {
   const TriangleMesh sheets[] = {make_sheet(1, -9, 9, -9, 9), make_sheet(2, -9, 9, -9, 9)};
   const Oracle oracle(sheets);

@@ -15,8 +15,8 @@ inline double share_below(double d) {
   return 0.5 + (std::asin(d) + d * std::sqrt(1 - d * d)) / std::numbers::pi;
 }
 
-/// The share of the unit disk with x ≥ a and y ≥ b, where (a, b) lies inside the disk: the integral over x from a of
-/// √(1 - x²) - max(b, -√(1 - x²)).
+/// The share of the unit disk with x ≥ a and y ≥ b, where (a, b) lies inside the disk: the integral over x
+/// from a of √(1 - x²) - max(b, -√(1 - x²)).
 inline double share_of_quadrant(double a, double b) {
   const auto area = [](double x) { return (x * std::sqrt(1 - x * x) + std::asin(x)) / 2; };
   const double end = std::sqrt(1 - b * b);

@@ -1,7 +1,7 @@
 // The oracle against closed forms.
 //
-// Seen from x, a point p of a caster at height h covers the light at p·H/h, H the height of the light: all shares below
-// are those of the unit disk after division by its radius.
+// Seen from x, a point p of a caster at height h covers the light at p·H/h, H the height of the light: all
+// shares below are those of the unit disk after division by its radius.
 #include "tests/oracle/oracle.h"
 
 #include <gtest/gtest.h>
@@ -93,7 +93,8 @@ TEST(Oracle, Slab) {
 
 TEST(Oracle, HoleInAPlate) {
   const TriangleMesh plate = make_plate_with_hole(2.0, 0.1, 50);
-  // From the ground at height 0 the hole covers a disk of radius 0.2 on the light, and moves by as much as x does.
+  // From the ground at height 0 the hole covers a disk of radius 0.2 on the light, and moves by as much as x
+  // does.
   for (const double radius : {0.1, 0.2, 0.3, 0.5})
     for (const double off : {0.0, 0.05, 0.2, 0.35, 0.8})
       EXPECT_NEAR(seen({plate}, {off, 0, 0}, DiskLight{{0, 4, 0}, {0, -1, 0}, radius}),
@@ -101,7 +102,8 @@ TEST(Oracle, HoleInAPlate) {
           << radius << ' ' << off;
 }
 
-// A wall stands just beside x and carries a roof: both end at the same edge, and rays near it are blocked once.
+// A wall stands just beside x and carries a roof: both end at the same edge, and rays near it are blocked
+// once.
 TEST(Oracle, TwoPlanesAtAnEdgeNearTheReceiver) {
   for (const double away : {1e-12, 1e-7, 1e-2})
     for (const double d : {0.0625, 0.5, 0.875}) {
@@ -115,8 +117,8 @@ TEST(Oracle, TwoPlanesAtAnEdgeNearTheReceiver) {
     }
 }
 
-// Nearer to the axis than the light, the far face's corner covers most: the top one for a corner beyond x, else the
-// bottom one.
+// Nearer to the axis than the light, the far face's corner covers most: the top one for a corner beyond x,
+// else the bottom one.
 TEST(Oracle, BoxCornerUnderNearAndFarLights) {
   for (const double distance : {4.0, 1e6, 1e9})
     for (const auto& [a, b] : {std::pair(0.3, 0.2), {0.7, 0.1}, {-0.3, -0.4}, {-0.05, -0.9}}) {

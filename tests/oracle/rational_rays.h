@@ -1,6 +1,6 @@
-// The oracle's contract in rational numbers, face by face: slow, and written apart from the oracle. It solves for the
-// point where ray and plane meet and looks on which side of the edges that point lies, where the oracle takes signs of
-// determinants.
+// The oracle's contract in rational numbers, face by face: slow, and written apart from the oracle. It solves
+// for the point where ray and plane meet and looks on which side of the edges that point lies, where the
+// oracle takes signs of determinants.
 #pragma once
 
 #include <gmpxx.h>
@@ -37,8 +37,8 @@ inline Rational volume(const FacePoints& p) {
   return dot(minus(p[0], p[3]), cross(minus(p[1], p[0]), minus(p[2], p[0])));
 }
 
-/// Whether four roundings of every coordinate can make the volume 0, to first order. It is linear in each coordinate, so
-/// a derivative is the change by one unit.
+/// Whether four roundings of every coordinate can make the volume 0, to first order. It is linear in each
+/// coordinate, so a derivative is the change by one unit.
 inline bool is_flat(const FacePoints& points) {
   const Rational whole = volume(points);
   Rational reach = 0;

@@ -101,8 +101,8 @@ std::optional<int> Bounded::sign() const {
   return {};
 }
 
-// The errors below are sums and products of non-negative numbers, a few roundings each: the factor 1 + 8u makes up for
-// these.
+// The errors below are sums and products of non-negative numbers, a few roundings each: the factor 1 + 8u
+// makes up for these.
 Bounded operator+(const Bounded& a, const Bounded& b) {
   const double value = a.value + b.value;
   return {value, (a.error + b.error + kUnit * std::abs(value)) * (1 + 8 * kUnit)};
@@ -127,9 +127,9 @@ Bounded difference(double a, double b) {
   return {value, kUnit * (1 + 8 * kUnit) * std::abs(value)};
 }
 
-// Every one of the six terms is rounded at most eight times: three differences, two products, one subtraction, two
-// additions. So the error is at most 8u(1 + O(u)) of the sum of their sizes, which itself is computed with at most
-// seven roundings: 10u is enough.
+// Every one of the six terms is rounded at most eight times: three differences, two products, one
+// subtraction, two additions. So the error is at most 8u(1 + O(u)) of the sum of their sizes, which itself is
+// computed with at most seven roundings: 10u is enough.
 Bounded determinant(const Vec3& a, const Vec3& b, const Vec3& c) {
   for (int i = 0; i < 3; ++i)
     if (a[i] == 0.0 && b[i] == 0.0 && c[i] == 0.0) return {};

@@ -45,8 +45,8 @@ double rms_difference(const Image& a, const Image& b) {
   return std::sqrt(sum / static_cast<double>(count));
 }
 
-// At distance D the light's direction and angle change across a scene of size s by s/D, and so do form factors and
-// shadows. (The colors are about 0.5; the float of a pixel holds 3e-8 of it.)
+// At distance D the light's direction and angle change across a scene of size s by s/D, and so do form
+// factors and shadows. (The colors are about 0.5; the float of a pixel holds 3e-8 of it.)
 TEST(DistantLights, GiveThePicturesThatRecedingDisksTendTo) {
   for (const char* method : {"none", "silhouette"}) {
     const Scene scene = testing::data_scene("boxes-sun");
@@ -66,8 +66,8 @@ TEST(DistantLights, GiveThePicturesThatRecedingDisksTendTo) {
   }
 }
 
-// A floor that sees all of the sun has albedo/π · E · sin(elevation), wherever it is; so it has under a point at
-// infinity.
+// A floor that sees all of the sun has albedo/π · E · sin(elevation), wherever it is; so it has under a point
+// at infinity.
 TEST(DistantLights, LightALevelFloorByTheirElevation) {
   for (const double angle : {0.0, 0.53, 20.0}) {
     Scene scene = testing::data_scene("boxes-sun");

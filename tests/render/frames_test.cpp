@@ -1,5 +1,5 @@
-// While the light moves and the camera stays, what depends on neither is kept, and every frame is the one that is made
-// afresh.
+// While the light moves and the camera stays, what depends on neither is kept, and every frame is the one
+// that is made afresh.
 #include <gtest/gtest.h>
 
 #include "penumbra/render/renderer.h"
@@ -21,8 +21,8 @@ RenderOptions options_of(const std::string& method) {
   return {.method = method, .width = 150, .height = 110};
 }
 
-/// Frames of a moving light from one renderer into one result; `check(frame, result, fresh)` sees each beside the same frame
-/// drawn afresh.
+/// Frames of a moving light from one renderer into one result; `check(frame, result, fresh)` sees each beside
+/// the same frame drawn afresh.
 template <class Check>
 void for_each_frame(const std::string& name, const RenderOptions& options, const Check& check) {
   Scene scene = testing::data_scene(name);

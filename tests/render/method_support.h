@@ -1,5 +1,5 @@
-// What tests of single methods share: a method in one call, a unit light over receivers in a row, and what every method must do
-// with empty scenes, bad settings and lights anywhere.
+// What tests of single methods share: a method in one call, a unit light over receivers in a row, and what
+// every method must do with empty scenes, bad settings and lights anywhere.
 #pragma once
 
 #include <gtest/gtest.h>

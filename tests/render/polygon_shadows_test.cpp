@@ -1,4 +1,5 @@
-// The shadow of a concave or bridged polygon of a file has its notches and holes, whatever corner comes first.
+// The shadow of a concave or bridged polygon of a file has its notches and holes, whatever corner comes
+// first.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,7 +10,8 @@
 namespace penumbra {
 namespace {
 
-/// How close a point of the plane y = 0 is to the outline, and whether an odd number of its sides is to the right.
+/// How close a point of the plane y = 0 is to the outline, and whether an odd number of its sides is to the
+/// right.
 struct Place {
   double distance = 1e9;
   bool inside = false;

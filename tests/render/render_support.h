@@ -194,8 +194,8 @@ inline SegmentHit segment_triangle(const Vec3& x, const Vec3& p, const Vec3& a, 
   return {t, std::min({u, v, 1.0 - u - v})};
 }
 
-/// Whether a caster hides p from x, which lies on one of its faces or on none, and whether that is clear (no triangle's border within `margin` of the
-/// segment).
+/// Whether a caster hides p from x, which lies on one of its faces or on none, and whether that is clear (no
+/// triangle's border within `margin` of the segment).
 struct Blocked {
   bool hidden = false, clear = true;
 };

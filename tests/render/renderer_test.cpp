@@ -49,7 +49,8 @@ std::vector<Choice> choices() {
   return all;
 }
 
-/// 0 to count - 1, each of them once after each of them, itself included: words a and a b with a < b one after the other.
+/// 0 to count - 1, each of them once after each of them, itself included: words a and a b with a < b one
+/// after the other.
 std::vector<std::size_t> all_neighbors(std::size_t count) {
   std::vector<std::size_t> order;
   for (std::size_t a = 0; a < count; ++a) {

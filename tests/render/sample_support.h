@@ -1,4 +1,5 @@
-// What tests of methods share that count the reference's light samples: how many samples off the reference they are.
+// What tests of methods share that count the reference's light samples: how many samples off the reference
+// they are.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,7 +20,8 @@ inline OptionValues light_samples(std::uint64_t count, std::uint64_t seed = 1) {
   return {{"samples", count}, {"seed", seed}};
 }
 
-/// Receivers in penumbra, those that differ between a method and the reference, and by how many samples in all.
+/// Receivers in penumbra, those that differ between a method and the reference, and by how many samples in
+/// all.
 struct SamplesOff {
   std::size_t partly = 0, receivers = 0;
   double samples = 0.0;

@@ -1,4 +1,5 @@
-// Scenes of data/regressions/scenes, and the same scene at another scale or elsewhere, for tests of methods that draw.
+// Scenes of data/regressions/scenes, and the same scene at another scale or elsewhere, for tests of methods
+// that draw.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -70,8 +71,8 @@ inline FrameError error_of(const Scene& scene, const std::string& method, const 
   return error_of(frame_of(scene, method, options), frame_of(scene, "silhouette"));
 }
 
-/// A method keeps its own error: at most 1.5 times that of the scene of the same kind at unit scale, and .001.
-/// `at_sheets`: options where a shadow's edge runs along texels.
+/// A method keeps its own error: at most 1.5 times that of the scene of the same kind at unit scale, and
+/// .001. `at_sheets`: options where a shadow's edge runs along texels.
 inline void expect_own_error(const std::string& method, const OptionValues& at_sheets = {}) {
   struct Family {
     const char* base;
@@ -97,8 +98,8 @@ inline void expect_own_error(const std::string& method, const OptionValues& at_s
   }
 }
 
-/// Scaled by powers of two everything is the same to the bit. By other factors and elsewhere coordinates are rounded
-/// anew: V of pixels that see the same face is the same to 1e-3, but at `stray` of them.
+/// Scaled by powers of two everything is the same to the bit. By other factors and elsewhere coordinates are
+/// rounded anew: V of pixels that see the same face is the same to 1e-3, but at `stray` of them.
 inline void expect_same_at_any_scale(const std::string& method, const Scene& scene, double stray) {
   const Frame here = frame_of(scene, method);
   const double size = scene.caster_bounds().radius();

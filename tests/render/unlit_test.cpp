@@ -1,4 +1,5 @@
-// Lights inside, on and behind geometry, and lights that light nothing: the picture is right, and a warning says so.
+// Lights inside, on and behind geometry, and lights that light nothing: the picture is right, and a warning
+// says so.
 #include <gtest/gtest.h>
 
 #include "penumbra/render/renderer.h"

@@ -21,8 +21,8 @@ std::string drawing_methods() {
   return out;
 }
 
-// Folders of render/ that every method may use: the last are the edges that receivers see. Each other folder of render/ is
-// a method.
+// Folders of render/ that every method may use: the last are the edges that receivers see. Each other folder
+// of render/ is a method.
 const std::string kShared =
     "(?:support|light|scene|receivers|rays|center_view|gl|image|shading|plan|silhouette/"
     "(?:edges|merge|collect))/";
@@ -106,8 +106,8 @@ const std::vector<Rule>& rules() {
   return kRules;
 }
 
-// One list of what the rules above, circles and public headers still find; it should shrink. An entry that nothing needs
-// any more fails the test.
+// One list of what the rules above, circles and public headers still find; it should shrink. An entry that
+// nothing needs any more fails the test.
 const std::vector<Exemption>& exemptions() {
   static const std::vector<Exemption> kExemptions = {};
   return kExemptions;

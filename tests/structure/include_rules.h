@@ -19,8 +19,8 @@ enum class Verb {
   kAloneIncludes,  ///< a file of `what` is included by files of `who` and by no others
 };
 
-/// `who` and `what` are patterns for the beginning of a path from the top, of an outside header between brackets. In
-/// `what`, \1 is the first group of `who`.
+/// `who` and `what` are patterns for the beginning of a path from the top, of an outside header between
+/// brackets. In `what`, \1 is the first group of `who`.
 struct Rule {
   const char* name;
   std::string who;
@@ -58,11 +58,11 @@ std::string text_of(const Finding& finding);
 /// The path from the top that an include names: `written` without the public prefix.
 std::string target_of(const Include& include);
 std::vector<Finding> findings_of_table(const Tree& tree);
-/// Public headers are included with the prefix penumbra/, internal ones without; what is included is there, shaders
-/// apart; a public header includes no internal one.
+/// Public headers are included with the prefix penumbra/, internal ones without; what is included is there,
+/// shaders apart; a public header includes no internal one.
 std::vector<Finding> findings_of_public_headers(const Tree& tree);
-/// The folders of a module include each other in no circle. What lies in folders of a folder counts as the folder's, the
-/// module's own files do not count.
+/// The folders of a module include each other in no circle. What lies in folders of a folder counts as the
+/// folder's, the module's own files do not count.
 std::vector<Finding> findings_of_circles(const Tree& tree, const std::string& module);
 
 }  // namespace penumbra::structure

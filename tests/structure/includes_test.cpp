@@ -1,4 +1,5 @@
-// Which file includes which: the table of include_rules.cpp holds in the tree, and each of its rules can fail.
+// Which file includes which: the table of include_rules.cpp holds in the tree, and each of its rules can
+// fail.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// Nothing is moved off a surface, and no tolerance is in proportion to the scene: as far as words of the sources tell it.
+// Nothing is moved off a surface, and no tolerance is in proportion to the scene: as far as words of the
+// sources tell it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Folders and files stay small enough to be read: at most 25 files a folder, 350 lines a file. docs/architecture.md names
-// the files that are longer, and why.
+// Folders and files stay small enough to be read: at most 25 files a folder, 350 lines a file.
+// docs/architecture.md names the files that are longer, and why.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,8 +43,8 @@ Sizes sizes_of(const fs::path& top) {
   return sizes;
 }
 
-/// The paths in the first column of the table under the heading: lines `| file | why |`, the file in backquotes. A row
-/// without a reason does not count.
+/// The paths in the first column of the table under the heading: lines `| file | why |`, the file in
+/// backquotes. A row without a reason does not count.
 std::set<std::string> named_in_table(std::istream& text) {
   static const std::regex kRow(R"(\|\s*`([^`]+)`\s*\|\s*(\S.*\S)\s*\|\s*)");
   std::set<std::string> out;

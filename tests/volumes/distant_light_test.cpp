@@ -1,5 +1,5 @@
-// What a distant light is the limit of: disks of the same angle, further and further away. And shadows under it whose
-// shape is known.
+// What a distant light is the limit of: disks of the same angle, further and further away. And shadows under
+// it whose shape is known.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -137,8 +137,8 @@ TEST(FarDisks, VolumesConverge) {
 
 // ---- shadows of known shape
 
-/// A cube of half side 1 under a light straight above it, whose rays lean by at most 1/4. The umbra narrows below the
-/// bottom's edges by 1/4 for each unit of height, the penumbra widens below the top's.
+/// A cube of half side 1 under a light straight above it, whose rays lean by at most 1/4. The umbra narrows
+/// below the bottom's edges by 1/4 for each unit of height, the penumbra widens below the top's.
 TEST(DistantShadows, OfACubeUnderTheSunAtNoon) {
   const TriangleMesh cube = make_box(Vec3(0.0), Vec3(1.0));
   const CircularLight sun = DistantLight{{0, -7, 0}, 2.0 * std::atan(0.25) * 180.0 / 3.14159265358979323846};

@@ -1,5 +1,5 @@
-// A volume that was written is closed when it is read again: its cells touch and overlap, so that many faces meet at
-// edges that follow each other.
+// A volume that was written is closed when it is read again: its cells touch and overlap, so that many faces
+// meet at edges that follow each other.
 #include <gtest/gtest.h>
 
 #include "penumbra/mesh/io/polygon_soup.h"

@@ -10,8 +10,8 @@
 
 namespace penumbra::testing {
 
-/// Where a segment from x towards sample k of n of the disk ends (Vogel's spiral): at the sample, or, if the light is
-/// distant, about `far` away.
+/// Where a segment from x towards sample k of n of the disk ends (Vogel's spiral): at the sample, or, if the
+/// light is distant, about `far` away.
 inline Vec3 end_towards_light(const CircularLight& light, const LightFrame& frame, const Vec3& x, int k,
                               int n, double far) {
   const double angle = 2.399963229728653 * k, r = light.radius * std::sqrt((k + 0.5) / n);
@@ -19,8 +19,8 @@ inline Vec3 end_towards_light(const CircularLight& light, const LightFrame& fram
   return light.is_distant() ? x + far * (q - frame.w) : light.center + q;
 }
 
-/// A point that no shadow of what is in the box reaches: behind the light by `distance`, or, if the light is distant,
-/// between it and the box.
+/// A point that no shadow of what is in the box reaches: behind the light by `distance`, or, if the light is
+/// distant, between it and the box.
 inline Vec3 unshadowed_point(const CircularLight& light, const Bounds& box, double distance) {
   const Vec3 w = light_frame(light).w;
   return light.is_distant() ? box.center() - (box.radius() + distance) * w : light.center - distance * w;

@@ -109,10 +109,10 @@ inline CircularLight distant_light(const Vec3& direction, double radius) {
   return light;
 }
 
-/// Points of a plane that touches the disk exactly: all coordinates are integers. With a Pythagorean triple t and a
-/// radius p/q, (p t0, p t1, -q t2) leads to the rim of a light that shines along z, and (-t1, t0, 0) along it. Both are
-/// turned by a matrix of integers whose columns are perpendicular and of one length, 1 or 3. `line`: the line of the
-/// first two points, which are different, leads to the rim.
+/// Points of a plane that touches the disk exactly: all coordinates are integers. With a Pythagorean triple t
+/// and a radius p/q, (p t0, p t1, -q t2) leads to the rim of a light that shines along z, and (-t1, t0, 0)
+/// along it. Both are turned by a matrix of integers whose columns are perpendicular and of one length, 1 or
+/// 3. `line`: the line of the first two points, which are different, leads to the rim.
 inline PredicateInput distant_tangent_input(RandomInputs& random, bool line = false) {
   static constexpr int kTriples[4][3] = {{3, 4, 5}, {5, 12, 13}, {8, 15, 17}, {20, 21, 29}};
   static constexpr int kRadii[6][2] = {{1, 2}, {3, 4}, {1, 1}, {5, 4}, {3, 1}, {1, 256}};

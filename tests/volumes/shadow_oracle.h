@@ -5,8 +5,8 @@
 // side planes. Where it meets the light's plane it is a convex region R; the triangle hides a positive area
 // of the disk iff R has an interior and its distance from the center is below the radius. The closest point
 // of R is the center, the foot of the perpendicular on one of its lines, or a corner where two meet: all
-// rational. Of a distant light the plane is that of the directions d with d·m = -m·m, its center -m and its radius
-// r|m|.
+// rational. Of a distant light the plane is that of the directions d with d·m = -m·m, its center -m and its
+// radius r|m|.
 #pragma once
 
 #include <array>

@@ -10,8 +10,8 @@
 namespace penumbra::yardstick {
 namespace {
 
-/// The scene of the same family at unit scale. `comparable`: the object of which it shows the same. `is_pattern`: rows measure
-/// it, and areas are as good as those of patterns.cpp.
+/// The scene of the same family at unit scale. `comparable`: the object of which it shows the same.
+/// `is_pattern`: rows measure it, and areas are as good as those of patterns.cpp.
 struct Family {
   std::string prefix, base;
   std::optional<int> comparable{};

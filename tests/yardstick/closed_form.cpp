@@ -20,8 +20,8 @@ double sector(const Point& p, const Point& q) {
   return 0.5 * std::atan2(cross(p, q), dot(p, q));
 }
 
-// The line p + t(q - p) is in the disk for t of [low, high]: |d|²t² + 2(p·d)t + |p|² - 1 ≤ 0. The discriminant is
-// |d|² - (p × d)², and the distance of the line from the center is |p × d|/|d|.
+// The line p + t(q - p) is in the disk for t of [low, high]: |d|²t² + 2(p·d)t + |p|² - 1 ≤ 0. The
+// discriminant is |d|² - (p × d)², and the distance of the line from the center is |p × d|/|d|.
 double edge_area(const Point& p, const Point& q) {
   const Point d{q.x - p.x, q.y - p.y};
   const double length2 = dot(d, d), moment = cross(p, d);

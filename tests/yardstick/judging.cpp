@@ -19,7 +19,8 @@ OptionValues samples(std::uint64_t count) {
   return {{"samples", count}};
 }
 
-/// Whether the light's center lies in the receiver's plane, as far as rounding tells: a hard shadow has no value there.
+/// Whether the light's center lies in the receiver's plane, as far as rounding tells: a hard shadow has no
+/// value there.
 bool is_grazed(const LightShape& light, const Vec3& point, const Vec3& normal) {
   constexpr double kRounding = 1e-9;
   const CircularLight circular = require_circular(light, "hard shadows");
@@ -27,8 +28,8 @@ bool is_grazed(const LightShape& light, const Vec3& point, const Vec3& normal) {
   return std::abs(glm::dot(normal, way)) <= kRounding * glm::length(way);
 }
 
-/// Pixels whose V is partial or unlike that of a pixel beside, and some of the others; ascending. Nothing of the methods
-/// has a share in the choice.
+/// Pixels whose V is partial or unlike that of a pixel beside, and some of the others; ascending. Nothing of
+/// the methods has a share in the choice.
 std::vector<std::uint32_t> choose_pixels(const Scene& scene, const PictureSize& size,
                                          std::optional<int> object, bool is_hard) {
   const LightShape& light = scene.lights.front().shape;
@@ -73,8 +74,9 @@ struct Center {
 
 }  // namespace
 
-// What is not listed keeps its own error, or has that of 256 samples. Stratified rays are off by .0008 RMS at 4,096 samples and by .0066 at 256. A hard shadow's pixels are right or wrong: one
-// in a thousand may be, at outlines.
+// What is not listed keeps its own error, or has that of 256 samples. Stratified rays are off by .0008 RMS at
+// 4,096 samples and by .0066 at 256. A hard shadow's pixels are right or wrong: one in a thousand may be, at
+// outlines.
 std::vector<Contender> contenders() {
   constexpr PictureSize kFewer{320, 240};  // for rays, which take longer
   std::vector<Contender> out = {

@@ -20,7 +20,8 @@ struct PictureSize {
   auto operator<=>(const PictureSize&) const = default;
 };
 
-/// The largest errors of V that count as right. Its own noise is taken out of the oracle's figures, not that of the method.
+/// The largest errors of V that count as right. Its own noise is taken out of the oracle's figures, not that
+/// of the method.
 struct Limits {
   /// Over true penumbra, and over all pixels.
   double rmse = 0.0;
@@ -56,12 +57,12 @@ struct Verdict {
 };
 std::string text_of(const Verdict& verdict);
 
-/// One scene's pictures. Judged with twice 1,024 rays at up to 8,000 pixels where sixteen rays find a change, or beside, and
-/// at 2,000 others.
+/// One scene's pictures. Judged with twice 1,024 rays at up to 8,000 pixels where sixteen rays find a change,
+/// or beside, and at 2,000 others.
 class JudgedScene {
  public:
-  /// `relative_on`: relative contenders are judged by pixels of this object alone, where the others of the base scene are not
-  /// to be compared.
+  /// `relative_on`: relative contenders are judged by pixels of this object alone, where the others of the
+  /// base scene are not to be compared.
   explicit JudgedScene(Scene scene, std::optional<int> relative_on = {});
 
   const Scene& scene() const { return renderer_.scene(); }

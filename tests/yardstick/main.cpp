@@ -1,5 +1,5 @@
-// The yardstick: what every method makes of scenes at any scale, judged by rays in double and by closed forms.
-// penumbra_yardstick [PATTERN...]
+// The yardstick: what every method makes of scenes at any scale, judged by rays in double and by closed
+// forms. penumbra_yardstick [PATTERN...]
 #include <cstdio>
 #include <cstring>
 #include <exception>

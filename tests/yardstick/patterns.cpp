@@ -50,8 +50,8 @@ KindFigures figures_of(int kind, int kinds) {
   return f;
 }
 
-/// Layers of slats above a floor, under a disk. Angles are those that the slats are seen under on the light, against the
-/// first family of rows; periods are as the floor's middle sees them, light radii.
+/// Layers of slats above a floor, under a disk. Angles are those that the slats are seen under on the light,
+/// against the first family of rows; periods are as the floor's middle sees them, light radii.
 struct Layers {
   std::string name;
   struct Layer {

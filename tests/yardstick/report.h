@@ -8,8 +8,8 @@
 
 namespace penumbra::yardstick {
 
-/// Cases that have to be right, as patterns of the shell over the names of findings. What is not listed is measured and
-/// printed all the same.
+/// Cases that have to be right, as patterns of the shell over the names of findings. What is not listed is
+/// measured and printed all the same.
 const std::vector<std::string>& required();
 
 class Report {
@@ -19,7 +19,8 @@ class Report {
                   std::vector<std::string> required = yardstick::required())
       : patterns_(std::move(patterns)), required_(std::move(required)) {}
 
-  /// `name` is a path, PART, PART/CASE or PART/CASE/METHOD. A pattern matches it where words at the same place match.
+  /// `name` is a path, PART, PART/CASE or PART/CASE/METHOD. A pattern matches it where words at the same
+  /// place match.
   bool wants(const std::string& name) const;
   /// Prints the line at once.
   void add(const std::string& name, bool right, const std::string& figures);
@@ -32,8 +33,8 @@ class Report {
       add(name, false, e.what());
     }
   }
-  /// Prints how many cases of each part and method are right. 0, or 1 where one that is required is wrong or was not
-  /// looked at although it was wanted.
+  /// Prints how many cases of each part and method are right. 0, or 1 where one that is required is wrong or
+  /// was not looked at although it was wanted.
   int conclude() const;
 
  private:

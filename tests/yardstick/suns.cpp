@@ -43,7 +43,8 @@ void judge_suns_of(Report& report, const Contender& method) {
   for (const Sun& sun : kSuns) {
     const double difference = mean_difference(JudgedScene(scene_named(sun.name)).draw(method), limit);
     if (first == 0.0) first = difference;
-    // That at 1e3 is some part of the penumbra; the others have twice what it says, since a part of it is saturated.
+    // That at 1e3 is some part of the penumbra; the others have twice what it says, since a part of it is
+    // saturated.
     const bool is_first = sun.distance == kSuns.front().distance;
     const double expected = is_first ? 0.5 : 2.0 * first * kSuns.front().distance / sun.distance + kRounding;
     report.add(std::string("suns/") + sun.name + "/" + method.method, difference <= expected,
@@ -53,8 +54,8 @@ void judge_suns_of(Report& report, const Contender& method) {
 
 }  // namespace
 
-// A point at distance 1 from the axis through the scene sees a disk at distance D move by 1/(D tan(angle/2)) of its radius:
-// the difference to the distant light falls like 1/D.
+// A point at distance 1 from the axis through the scene sees a disk at distance D move by 1/(D tan(angle/2))
+// of its radius: the difference to the distant light falls like 1/D.
 void judge_suns(Report& report) {
   for (const Contender& method : contenders()) {
     const std::string all = "suns/*/" + method.method;

@@ -50,7 +50,8 @@ TEST(Yardstick, SeesWhatIsWrong) {
   EXPECT_GT(verdict.rmse, 0.1);
   EXPECT_EQ(verdict.most, 1.0);
   EXPECT_FALSE(is_right(none, verdict, nullptr));
-  // Of two that keep their own error, that with an error of its own is right beside itself, and wrong beside the other.
+  // Of two that keep their own error, that with an error of its own is right beside itself, and wrong beside
+  // the other.
   none.is_relative = true;
   EXPECT_TRUE(is_right(none, verdict, &scene));
   Verdict better = verdict;

@@ -15,8 +15,8 @@
 // Degenerate faces bound nothing. A flat patch is the limit of hulls that reach a hair below it: a plane then
 // also has to have a vertex of the patch strictly behind it, or be that of the patch's faces.
 //
-// Faces that meet others, and faces of inverted folds, are not to be joined (inverted_folds.h): K might reach out of the
-// solid, and the volume be larger than it need be.
+// Faces that meet others, and faces of inverted folds, are not to be joined (inverted_folds.h): K might reach
+// out of the solid, and the volume be larger than it need be.
 #pragma once
 
 #include <functional>

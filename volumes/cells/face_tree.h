@@ -35,7 +35,8 @@ class FaceTree {
     return true;
   }
 
-  /// Calls visit(face, face) once for every two faces whose bounding boxes meet, in any order and on all cores.
+  /// Calls visit(face, face) once for every two faces whose bounding boxes meet, in any order and on all
+  /// cores.
   template <class Visit>
   void for_each_near_pair(const Visit& visit) const {
     if (!nodes_.empty()) pairs_in(0, visit);

@@ -74,10 +74,10 @@ class FoldFinder {
     return v == t[0] || v == t[1] || v == t[2];
   }
 
-  /// Whether the corners of a face that it does not share with a plane's face are strictly on one side of the plane, in
-  /// plain double. With the plane's sides e1 and e2, S = |e1||e2| and the way w from its corner, the height (e1 × e2)·w
-  /// is off by less than 9 u √3 S |w| (quick_class.h), u = 2^-53. What underflow adds is far below the least height
-  /// that is trusted.
+  /// Whether the corners of a face that it does not share with a plane's face are strictly on one side of the
+  /// plane, in plain double. With the plane's sides e1 and e2, S = |e1||e2| and the way w from its corner,
+  /// the height (e1 × e2)·w is off by less than 9 u √3 S |w| (quick_class.h), u = 2^-53. What underflow adds
+  /// is far below the least height that is trusted.
   bool is_surely_on_one_side(FaceId face, FaceId of_plane) const {
     constexpr double kBound2 = 0x1p-98, kLeast2 = 1e-200;
     const IndexedTriangle &t = mesh_.triangles()[index(of_plane)], &other = mesh_.triangles()[index(face)];
@@ -132,7 +132,8 @@ class FoldFinder {
     return true;
   }
 
-  /// The winding number at a point in front of the face, if nothing but the face is between the point and one behind it.
+  /// The winding number at a point in front of the face, if nothing but the face is between the point and one
+  /// behind it.
   std::optional<int> winding_in_front_of(FaceId f) const {
     const Corners t = corners(f);
     const Vec3 normal = glm::cross(t[1] - t[0], t[2] - t[0]), middle = (t[0] + t[1] + t[2]) / 3.0;

@@ -21,9 +21,9 @@ namespace {
 constexpr double kLeastDepth = 1e-4;
 // Beyond this ratio of the bound's distance to the body's the cell is the whole half-space in front.
 constexpr double kGreatestScale = 1e7;
-// The polygon is larger than circumscribed by these, relative to the light and to the cell's largest coordinate. So
-// containment survives the rounding of its corners and of far points, which is some 2^-52 of the coordinates,
-// seen at the angle of the ray.
+// The polygon is larger than circumscribed by these, relative to the light and to the cell's largest
+// coordinate. So containment survives the rounding of its corners and of far points, which is some 2^-52 of
+// the coordinates, seen at the angle of the ray.
 constexpr double kLightMargin = 1e-9, kRoundingMargin = 1e-14;
 // A vertex is left out of the far end's outline where its far disk is inside by more than this fraction of
 // the outline's size: far above rounding.
@@ -38,7 +38,8 @@ constexpr double kNoEdge = 1e-13;
 constexpr std::size_t kFewVertices = 12;
 // Directions in which the outline of a larger body is searched for.
 constexpr int kDirections = 48;
-// How far beyond the far plane the point lies that keeps the far end from being flat, relative to the cell's height.
+// How far beyond the far plane the point lies that keeps the far end from being flat, relative to the cell's
+// height.
 constexpr double kDome = 0.05;
 
 /// What the choice of the far end depends on.
@@ -175,9 +176,9 @@ CellPoints cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach, co
                         const BodyExtent& extent) {
   const double far_height = far_height_of(extent, reach);
   const double whole = far_height - extent.lowest, gain = far_height - extent.highest;
-  // A ray runs at most `slant` for each unit of height, so far points are off by a few 2^-53 of `size`. Moving the
-  // light's corner by `margin` moves them by margin · gain / depth in a plane parallel to the light, which is by that
-  // over `slant` across the ray.
+  // A ray runs at most `slant` for each unit of height, so far points are off by a few 2^-53 of `size`.
+  // Moving the light's corner by `margin` moves them by margin · gain / depth in a plane parallel to the
+  // light, which is by that over `slant` across the ray.
   const double slant = 1.0 + (extent.greatest_distance + reach.light.radius) / extent.least_depth;
   const double size = extent.largest_coordinate + whole * slant;
   const double margin = kRoundingMargin * size * slant * (extent.greatest_depth / gain);

@@ -6,11 +6,11 @@
 //   p + s(k - p) = k + (s - 1)(k - p); and, the other way round, k' + t(k - p) = (1 + t)k" - tp with
 //   k" = (k' + tk)/(1 + t) ∈ K, hence x = p + s(k" - p), s = 1 + t.
 // So C is convex. Its vertices are vertices k of K, its unbounded edges start there along k - p, p a corner
-// of P. Cut off at a plane beyond K that is parallel to the light, it is the convex hull of K and the points in which
-// those edges meet the plane. Cut off at s ≤ S it is conv(K ∪ {Sk + (1 - S)p}).
+// of P. Cut off at a plane beyond K that is parallel to the light, it is the convex hull of K and the points
+// in which those edges meet the plane. Cut off at s ≤ S it is conv(K ∪ {Sk + (1 - S)p}).
 //
-// For a distant light P is a set of directions and C is K ⊕ cone(-P), cut off by a plane. All points are found from k
-// on, never from p: what is rounded is in proportion to the cell, not to the light's distance.
+// For a distant light P is a set of directions and C is K ⊕ cone(-P), cut off by a plane. All points are
+// found from k on, never from p: what is rounded is in proportion to the cell, not to the light's distance.
 #pragma once
 
 #include <span>
@@ -35,8 +35,8 @@ struct UnitPolygon {
   double circumradius;
 };
 
-/// Whether the cell of conv(body) ends at a plane parallel to the light; always with a distant light. Bodies that
-/// come too near to the light's plane for that end at a distance, the larger the body the more loosely.
+/// Whether the cell of conv(body) ends at a plane parallel to the light; always with a distant light. Bodies
+/// that come too near to the light's plane for that end at a distance, the larger the body the more loosely.
 bool is_cut_by_depth(std::span<const Vec3> body, const ShadowReach& reach);
 
 /// The cell of conv(body). The body is in front of the light's plane, or behind it by rounding at most.

@@ -1,7 +1,8 @@
 // How far sheets and volumes reach, and the rays that bound them.
 //
-// Places along the light's axis are heights above the plane through the bound's center, so a light far away does not
-// round them. A ray that leaves a point k of the caster is k + h·ray(k, q): h is the height that it gains.
+// Places along the light's axis are heights above the plane through the bound's center, so a light far away
+// does not round them. A ray that leaves a point k of the caster is k + h·ray(k, q): h is the height that it
+// gains.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -21,16 +22,18 @@ struct ShadowReach {
   /// A plane parallel to the light at this height is beyond the bound.
   double far_height;
 
-  /// Above the plane through the bound's center that is parallel to the light, in the direction in which it shines.
+  /// Above the plane through the bound's center that is parallel to the light, in the direction in which it
+  /// shines.
   double height(const Vec3& p) const { return glm::dot(frame.w, p - bound_center); }
   /// The distance in front of the light's plane, negative behind it; 1 for a distant light.
   double depth(const Vec3& p) const { return light.is_distant() ? 1.0 : glm::dot(frame.w, p - light.center); }
   /// From the disk's center to p; of a distant light the direction in which it shines.
   Vec3 from_center(const Vec3& p) const { return light.is_distant() ? frame.w : p - light.center; }
-  /// From the point center + q of the light's plane through k, which is in front, per unit of height. Of a distant
-  /// light q is in units of its radius at distance 1.
+  /// From the point center + q of the light's plane through k, which is in front, per unit of height. Of a
+  /// distant light q is in units of its radius at distance 1.
   Vec3 ray(const Vec3& k, const Vec3& q) const { return (from_center(k) - q) / depth(k); }
-  /// An upper bound of the distance between a point of the bound and a point of the disk, which is not distant.
+  /// An upper bound of the distance between a point of the bound and a point of the disk, which is not
+  /// distant.
   double distance() const;
 };
 

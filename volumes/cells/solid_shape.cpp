@@ -54,8 +54,8 @@ class SolidExaminer {
   }
 
   /// Of the largest face and the vertex farthest below it, by rounded arithmetic: if the component is convex,
-  /// the average is strictly inside, and otherwise it will be found not to be. Of a sliver the normal would be
-  /// rounded to anything.
+  /// the average is strictly inside, and otherwise it will be found not to be. Of a sliver the normal would
+  /// be rounded to anything.
   std::optional<std::array<Vec3, 4>> tetrahedron() const {
     const auto area2 = [&](FaceId f) { return glm::dot(rounded_normal(f), rounded_normal(f)); };
     const FaceId largest = *std::max_element(component_.faces.begin(), component_.faces.end(),

@@ -38,8 +38,8 @@ class InPlane {
   }
   bool valid = false;
 
-  /// A side of a convex polygon, `inner` being another of its corners, has all of `others` beyond its line, or on the
-  /// line but beyond one end of the side.
+  /// A side of a convex polygon, `inner` being another of its corners, has all of `others` beyond its line,
+  /// or on the line but beyond one end of the side.
   bool separates(const Vec3& p, const Vec3& q, const Vec3& inner, std::span<const Vec3> others) const {
     const Sign inside = side(p, q, inner);
     return inside != Sign::kZero && are_beyond(p, q, inside, others);
@@ -110,8 +110,8 @@ bool do_meet_beyond_side(const Corners& a, const Corners& b) {
   return !plane.valid || !plane.separates(a[0], a[1], a[2], std::span(&b[2], 1));
 }
 
-/// Two triangles meet iff a side of one meets the other. Where they share a corner and another point, the segment between
-/// the two leaves one of them through the side opposite to the corner.
+/// Two triangles meet iff a side of one meets the other. Where they share a corner and another point, the
+/// segment between the two leaves one of them through the side opposite to the corner.
 bool sides_meet(const Corners& a, const Signs& sides_of_a, const Corners& b, int shared) {
   for (int i = shared; i < 3; ++i) {
     const int j = i + 1 < 3 ? i + 1 : shared == 0 ? 0 : -1;

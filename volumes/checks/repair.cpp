@@ -167,8 +167,8 @@ class Repairer {
     result_.components.push_back(std::move(repair));
   }
 
-  /// Drops the faces where each repeats one of a closed component that is not left as it is; they count as that
-  /// component's.
+  /// Drops the faces where each repeats one of a closed component that is not left as it is; they count as
+  /// that component's.
   bool drop_if_repeated(const std::vector<std::uint32_t>& faces) {
     const auto repeats = [&](std::uint32_t f) { return closed_at_.contains(sorted_corners(f)); };
     if (!std::all_of(faces.begin(), faces.end(), repeats)) return false;

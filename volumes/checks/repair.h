@@ -1,7 +1,8 @@
 // Mends a mesh before its shadow is computed, component by component, and says what was done.
 //
 // In: positions and triangles as they come. Out: positions and triangles, and a report. Each component is
-//  - kept as it is, if it is closed, oriented, outward (inward round a cavity) and free of self-intersections;
+//  - kept as it is, if it is closed, oriented, outward (inward round a cavity) and free of
+//    self-intersections;
 //  - mended, if it becomes so when faces that repeat others are dropped, seams are stitched, and faces are
 //    turned alike (by CGAL's orient_polygon_soup) and outward;
 //  - left as it is, if it is open, not manifold, not orientable or self-intersecting. Its shadow is right all
@@ -64,9 +65,10 @@ struct RepairOptions {
   std::size_t most_intersections = 1000;
 };
 
-/// Components are those of the built mesh where they are closed. One all of whose faces repeat faces of others is dropped.
-/// The faces of open ones are collected over shared edges, whichever way they run along them. Throws MeshError as TriangleMesh::build does. Expected
-/// cost O(n log n) for n triangles, in exact arithmetic where needed.
+/// Components are those of the built mesh where they are closed. One all of whose faces repeat faces of
+/// others is dropped. The faces of open ones are collected over shared edges, whichever way they run along
+/// them. Throws MeshError as TriangleMesh::build does. Expected cost O(n log n) for n triangles, in exact
+/// arithmetic where needed.
 RepairResult repair(std::span<const Vec3> positions, std::span<const IndexedTriangle> triangles,
                     const RepairOptions& options = {});
 

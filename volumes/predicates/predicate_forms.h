@@ -4,9 +4,9 @@
 // empty where that arithmetic cannot tell. Notation as in predicates.h: E = b - a the edge, N = E × (q - a)
 // the plane of edge and point, w = center - weight·a, m the light's normal of any length, r its radius.
 //
-// A distant light (weight 0) has w = -m, and the way to a point of its rim is, up to length, -m + r|m|e with a unit vector
-// e perpendicular to m. So its forms are those of a disk about w with the radius r|m|. Where a form has the factor m·m
-// throughout then, it is divided out.
+// A distant light (weight 0) has w = -m, and the way to a point of its rim is, up to length, -m + r|m|e with
+// a unit vector e perpendicular to m. So its forms are those of a disk about w with the radius r|m|. Where a
+// form has the factor m·m throughout then, it is divided out.
 #pragma once
 
 #include <array>
@@ -85,8 +85,8 @@ template <class Center, class Tangency>
 struct DiskToPlane {
   /// d = N·w
   Center center;
-  /// d²(m·m) - r²|N × m|², of a distant light d² - r²|N × m|²: positive iff the plane misses the closed disk, zero
-  /// iff it touches the rim.
+  /// d²(m·m) - r²|N × m|², of a distant light d² - r²|N × m|²: positive iff the plane misses the closed disk,
+  /// zero iff it touches the rim.
   Tangency tangency;
 };
 
@@ -118,9 +118,8 @@ std::optional<FaceClass> classify_face_in(const Vec3& a, const Vec3& b, const Ve
 /// The line a + tE meets the light's plane at t = (m·w)/(m·E), and there, scaled by m·E, the vector from the
 /// center is (m·w)E - (m·E)w = m × (E × w). So |m × (E × w)|² - r²(m·E)² has the wanted sign where m·E ≠ 0;
 /// where m·E = 0 ≠ m·w it is positive, as it should; where both vanish the line lies in the plane and |E ×
-/// w|² - r²|E|² decides.
-/// To a distant light the line goes in the direction E, whatever a is. With w = -m it is |m × (E × w)|² = (m·m)|E × w|²,
-/// so |E × w|² - r²(m·E)² decides. It is positive where m·E = 0.
+/// w|² - r²|E|² decides. To a distant light the line goes in the direction E, whatever a is. With w = -m it
+/// is |m × (E × w)|² = (m·m)|E × w|², so |E × w|² - r²(m·E)² decides. It is positive where m·E = 0.
 template <class Arithmetic>
 std::optional<Sign> line_outside_disk_in(const Vec3& a, const Vec3& b, const CircularLight& light) {
   const auto edge = differences<Arithmetic>(b, a);

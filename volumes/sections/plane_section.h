@@ -1,7 +1,7 @@
 // Sections: where a plane cuts the surface of a mesh, as curves. What a shadow solid leaves on a wall.
 //
-// A vertex in the plane counts as behind it, so that every triangle is cut in one segment or not at all, and a closed surface gives
-// closed curves.
+// A vertex in the plane counts as behind it, so that every triangle is cut in one segment or not at all, and
+// a closed surface gives closed curves.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +29,8 @@ struct Section {
   /// Seen against the normal, the solid lies to the left of its curves.
   std::vector<SectionCurve> curves;
   double length = 0.0;  ///< scene units
-  /// Scene units²: what closed curves enclose. Of a closed surface that is oriented outward, the area of the solid in the plane.
+  /// Scene units²: what closed curves enclose. Of a closed surface that is oriented outward, the area of the
+  /// solid in the plane.
   double area = 0.0;
 };
 
@@ -45,9 +46,10 @@ struct NamedSection {
 /// The extensions that write_sections knows: lower case, with the dot.
 std::vector<std::string_view> section_extensions();
 
-/// Writes sections by one plane: SVG, a drawing seen against the normal, each section a path in scene units, the largest first, with names,
-/// areas and a scale bar; or PLY with vertices and edges in space, `section` of each edge being the number of its section. The file is
-/// written whole or not at all. Throws UsageError for another extension, SystemError where writing fails.
+/// Writes sections by one plane: SVG, a drawing seen against the normal, each section a path in scene units,
+/// the largest first, with names, areas and a scale bar; or PLY with vertices and edges in space, `section`
+/// of each edge being the number of its section. The file is written whole or not at all. Throws UsageError
+/// for another extension, SystemError where writing fails.
 void write_sections(const std::filesystem::path& path, std::span<const NamedSection> sections,
                     const SectionPlane& plane);
 

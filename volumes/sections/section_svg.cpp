@@ -28,7 +28,8 @@ constexpr std::array<Colors, 5> kColors{{{"#f3bf73", "#c07a1c"},
                                          {"#b9798f", "#7d3a53"},
                                          {"#8d8fbf", "#4a4c86"}}};
 
-/// Right and up of a plane seen against its normal. Up is as near to the y axis as can be, or to -z where the plane is level.
+/// Right and up of a plane seen against its normal. Up is as near to the y axis as can be, or to -z where the
+/// plane is level.
 struct PlaneAxes {
   explicit PlaneAxes(const SectionPlane& plane) {
     const Vec3 n = glm::normalize(plane.normal);

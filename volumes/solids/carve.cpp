@@ -11,10 +11,11 @@
 namespace penumbra::detail {
 namespace {
 
-/// Of the grid's spacing: so far outside of triangles that cannot be proved points are tried, so that what they bulge between the
-/// points is in umbra as well.
+/// Of the grid's spacing: so far outside of triangles that cannot be proved points are tried, so that what
+/// they bulge between the points is in umbra as well.
 constexpr double kMargin = 0.05;
-/// Of a tolerance, along the grid's axes: these points are at most so far apart. Their lattice divides sides into at least so many.
+/// Of a tolerance, along the grid's axes: these points are at most so far apart. Their lattice divides sides
+/// into at least so many.
 constexpr double kApart = 0.18;
 constexpr int kFewestParts = 5;
 
@@ -22,7 +23,8 @@ constexpr std::uint8_t kAllCorners = 7;
 /// Of proofs, which are tried again and again.
 constexpr HiddenProof::Effort kQuick{.depth = 0, .thorough = false};
 
-/// Positions moved outward along the mean normals of the triangles that meet there, but not out of the grid's box.
+/// Positions moved outward along the mean normals of the triangles that meet there, but not out of the grid's
+/// box.
 std::vector<Vec3> grown(const GridSurface& surface, double by, const Bounds& box) {
   std::vector<Vec3> normals(surface.positions.size(), Vec3(0.0));
   for (std::size_t i = 0; i < surface.inner_triangles; ++i) {
@@ -51,8 +53,8 @@ class UmbraCarving {
         margin_(kMargin * std::max({grid.step().x, grid.step().y, grid.step().z})),
         carver_(grid, edges, true) {}
 
-  /// Most faults show at few points, most of these on the surface. So triangles are pulled to where these have none before more points,
-  /// outside of the surface, are tried.
+  /// Most faults show at few points, most of these on the surface. So triangles are pulled to where these
+  /// have none before more points, outside of the surface, are tried.
   GridSurface run(const PointPattern& lattice) {
     const PointPattern middles = middle_points();
     carve_by({middles, false, 0.0});
@@ -79,8 +81,8 @@ class UmbraCarving {
     return true;
   }
 
-  /// All triangles that have moved since this was done, or of whose points nothing is known: they are proved, or tried. Those that have a
-  /// fault are moved. False where none has.
+  /// All triangles that have moved since this was done, or of whose points nothing is known: they are proved,
+  /// or tried. Those that have a fault are moved. False where none has.
   bool look_at_all(const Pass& pass) {
     begin();
     const std::vector<std::size_t> which =
@@ -94,7 +96,8 @@ class UmbraCarving {
     return try_points(unproved(which, proved), pass);
   }
 
-  /// Those that had a fault and have moved since: they are proved, or those of their points are tried that had one.
+  /// Those that had a fault and have moved since: they are proved, or those of their points are tried that
+  /// had one.
   bool look_again(const Pass& pass) {
     begin();
     std::vector<std::size_t> which = those([&](std::size_t i) {
@@ -176,7 +179,8 @@ class UmbraCarving {
   TriangleStates states_;
 };
 
-/// Of a penumbra, the triangles that have a corner which has moved. Those of caps and those in the light's plane need no judgment.
+/// Of a penumbra, the triangles that have a corner which has moved. Those of caps and those in the light's
+/// plane need no judgment.
 std::vector<std::size_t> moved(const GridSurface& surface, const CrossedEdges& edges) {
   std::vector<std::size_t> out;
   const auto has_moved = [&](std::uint32_t v) { return edges.all()[v].moved; };

@@ -11,7 +11,8 @@
 
 namespace penumbra::detail {
 
-/// What triangles are judged by: shafts, and for the umbra points where shafts prove nothing. Refers to its arguments.
+/// What triangles are judged by: shafts, and for the umbra points where shafts prove nothing. Refers to its
+/// arguments.
 class TriangleJudge {
  public:
   TriangleJudge(const SolidMeshRequest& request, const CasterTree& tree)
@@ -26,8 +27,8 @@ class TriangleJudge {
     std::span<const Vec3> positions;
     std::span<const IndexedTriangle> triangles;
   };
-  /// Points of an umbra's triangles are tried, each once, but for those that are known to have no fault. `known`: before, and then
-  /// after. `evaluations` grows by the points.
+  /// Points of an umbra's triangles are tried, each once, but for those that are known to have no fault.
+  /// `known`: before, and then after. `evaluations` grows by the points.
   Faults try_points(const Surface& surface, const PointPattern& pattern, TrianglePoints::Known& known,
                     std::size_t& evaluations) const;
   /// One a triangle: it is proved. `effort`: of an umbra.
@@ -42,8 +43,9 @@ class TriangleJudge {
   mutable tbb::enumerable_thread_specific<HiddenProof> proofs_;
 };
 
-/// Moves vertices along their edges, and grid points to the other side, until no triangle has a fault. Grid points of the
-/// umbra only ever leave it, those of the penumbra only ever join it, so that it ends. `progress` is told about how far it is.
+/// Moves vertices along their edges, and grid points to the other side, until no triangle has a fault. Grid
+/// points of the umbra only ever leave it, those of the penumbra only ever join it, so that it ends.
+/// `progress` is told about how far it is.
 GridSurface carve(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& request,
                   const TriangleJudge& judge, std::size_t& evaluations, const Progress& progress);
 

@@ -12,7 +12,8 @@ class Carver {
  public:
   Carver(SolidGrid& grid, CrossedEdges& edges, bool inward) : grid_(grid), edges_(edges), inward_(inward) {}
 
-  /// The corners of a triangle that are set in `which`, as bits. Where they are grid points of a cap, those change sides.
+  /// The corners of a triangle that are set in `which`, as bits. Where they are grid points of a cap, those
+  /// change sides.
   void move(const GridSurface& surface, const IndexedTriangle& t, unsigned which) {
     const std::size_t edge_count = edges_.all().size();
     for (int k = 0; k < 3; ++k) {

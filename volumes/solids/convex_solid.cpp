@@ -21,7 +21,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Of the tolerance: how far the polygon around the disk may reach beyond it, as magnified by the bound's distance.
+/// Of the tolerance: how far the polygon around the disk may reach beyond it, as magnified by the bound's
+/// distance.
 constexpr double kPolygon = 0.25;
 constexpr int kFewestCorners = 16, kMostCorners = 512;
 /// Other polygons are tried where rounding has spoiled a penumbra.

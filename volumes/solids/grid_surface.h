@@ -1,8 +1,9 @@
 // Solids: the boundary of what is inside of a grid, by marching tetrahedra.
 //
-// A vertex of the surface lies on the open edge between a grid point inside and one outside, wherever that is. In each tetrahedron
-// the surface is one triangle or two. At the grid's own boundary the surface is closed by caps in its planes. For any
-// positions on the edges the result is a closed, oriented two-manifold without self-intersections.
+// A vertex of the surface lies on the open edge between a grid point inside and one outside, wherever that
+// is. In each tetrahedron the surface is one triangle or two. At the grid's own boundary the surface is
+// closed by caps in its planes. For any positions on the edges the result is a closed, oriented two-manifold
+// without self-intersections.
 #pragma once
 
 #include <cstdint>
@@ -34,16 +35,18 @@ struct GridSurface {
   std::vector<Vec3> positions;
   std::vector<std::uint32_t> cap_points;  ///< grid vertices, of the positions that follow the edges'
   std::vector<IndexedTriangle> triangles;
-  /// One a triangle that lies inside of the grid: a vertex on which its shape depends as well as on its corners.
+  /// One a triangle that lies inside of the grid: a vertex on which its shape depends as well as on its
+  /// corners.
   std::vector<std::uint32_t> fourth;
-  /// One a triangle, ascending. Triangles of two surfaces on one grid that have the same name have their corners on the same edges and
-  /// grid points.
+  /// One a triangle, ascending. Triangles of two surfaces on one grid that have the same name have their
+  /// corners on the same edges and grid points.
   std::vector<std::uint64_t> names;
   /// The first so many lie inside of the grid, the rest in caps.
   std::size_t inner_triangles = 0;
 };
 
-/// A plane behind which nothing is inside: normal · p > offset in front of it. Crossed edges that lead behind it end there.
+/// A plane behind which nothing is inside: normal · p > offset in front of it. Crossed edges that lead behind
+/// it end there.
 struct GridWall {
   Vec3 normal;
   double offset;
@@ -55,8 +58,8 @@ class CrossedEdges {
   explicit CrossedEdges(const SolidGrid& grid, const std::optional<GridWall>& wall = std::nullopt)
       : grid_(grid), wall_(wall) {}
 
-  /// Finds them anew; those that were crossed the same way before keep what is known of them. `start`: `at` and `pull` of
-  /// others.
+  /// Finds them anew; those that were crossed the same way before keep what is known of them. `start`: `at`
+  /// and `pull` of others.
   void update(double at, double pull);
   std::vector<CrossedEdge>& all() { return edges_; }
   const std::vector<CrossedEdge>& all() const { return edges_; }

@@ -22,8 +22,8 @@ class CasterBodies {
   std::vector<char> is_closed_;  ///< components
 };
 
-/// Takes grid points in bodies out of the solid. Edges that lead from the solid into a body are crossed where the body begins: of
-/// umbras at the last point found outside of it, else at the first point found inside.
+/// Takes grid points in bodies out of the solid. Edges that lead from the solid into a body are crossed where
+/// the body begins: of umbras at the last point found outside of it, else at the first point found inside.
 void leave_out_bodies(SolidGrid& grid, CrossedEdges& edges, const SolidMeshRequest& request);
 
 }  // namespace penumbra::detail

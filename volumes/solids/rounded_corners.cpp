@@ -12,8 +12,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// Of the largest coordinate. A corner of rounded planes that meet at good angles is off by some units of 2^-53; a millionth of a millimeter
-/// in a kilometer is far less than any tolerance.
+/// Of the largest coordinate. A corner of rounded planes that meet at good angles is off by some units of
+/// 2^-53; a millionth of a millimeter in a kilometer is far less than any tolerance.
 constexpr double kRounding = 0x1p-44;
 
 /// For each vertex the first one that it is not told apart from.

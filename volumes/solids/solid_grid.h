@@ -1,8 +1,9 @@
 // Solids: a grid of points, its division into tetrahedra, and which of its points are inside.
 //
-// Each cube of the grid is divided into the six tetrahedra around its diagonal from the lowest corner to the highest (H. Kuhn,
-// 1960). So every edge leads from a vertex to one that is 0 or 1 further along each axis: an edge is its lower vertex and
-// three bits. Vertices are numbered by blocks of 4×4×4, so that neighbors in number are neighbors in space.
+// Each cube of the grid is divided into the six tetrahedra around its diagonal from the lowest corner to the
+// highest (H. Kuhn, 1960). So every edge leads from a vertex to one that is 0 or 1 further along each axis:
+// an edge is its lower vertex and three bits. Vertices are numbered by blocks of 4×4×4, so that neighbors in
+// number are neighbors in space.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ class SolidGrid {
   static constexpr std::size_t kBlockSize = 64;  ///< vertices
   static constexpr std::uint32_t kNone = ~0u;
 
-  /// Its corners are those of the box. Distances of vertices along each axis are at most `spacing`. Throws UsageError where
-  /// that makes more than 2^31 vertices.
+  /// Its corners are those of the box. Distances of vertices along each axis are at most `spacing`. Throws
+  /// UsageError where that makes more than 2^31 vertices.
   SolidGrid(const Bounds& box, double spacing);
 
   const GridIndex& counts() const { return counts_; }  ///< vertices along each axis; multiples of kBlock

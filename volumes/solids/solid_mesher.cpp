@@ -18,9 +18,10 @@ namespace {
 constexpr int kBoxDepth = 5;          ///< the bound is halved so often to find where shadow may be
 constexpr int kBisections = 8;        ///< of a crossed edge
 constexpr double kLeast = 1.0 / 256;  ///< of an edge: vertices stay so far from its ends
-/// Of the tolerance: grid points are at most so far apart, and at least. Between, their distance is kThickness of the tolerance times
-/// (volume over area, in tolerances)^1.5. What is lost to the safe side is a share of the volume that grows with distance over
-/// thickness; and thin solids lose more, since their detail is as fine as the tolerance.
+/// Of the tolerance: grid points are at most so far apart, and at least. Between, their distance is
+/// kThickness of the tolerance times (volume over area, in tolerances)^1.5. What is lost to the safe side is
+/// a share of the volume that grows with distance over thickness; and thin solids lose more, since their
+/// detail is as fine as the tolerance.
 constexpr double kCoarsest = 2.0, kFinest = 0.95, kThickness = 0.097;
 constexpr double kNearWall =
     4e-3;  ///< of the tolerance: grid points so near to the light's plane are outside
@@ -132,8 +133,8 @@ class Mesher {
     out_.grid_points = grid.size();
   }
 
-  /// Volume over area, by a coarse grid: by how many points are inside, and how many of its sides lead outside. The sides that a
-  /// plane crosses have 3/2 of its area on average over its directions.
+  /// Volume over area, by a coarse grid: by how many points are inside, and how many of its sides lead
+  /// outside. The sides that a plane crosses have 3/2 of its area on average over its directions.
   double spacing_for(const Bounds& box, const LitBoxes& boxes) {
     const double coarsest = kCoarsest * request_.tolerance;
     SolidGrid grid(box, kFirstLook * request_.tolerance);
@@ -153,8 +154,8 @@ class Mesher {
     return request_.tolerance * std::clamp(kThickness * std::pow(thickness, 1.5), kFinest, kCoarsest);
   }
 
-  /// What is lit sees the light, so that it hangs together with what lies outside of the grid. What does not is a fault of the
-  /// grid, or a body that is open at a hole finer than it.
+  /// What is lit sees the light, so that it hangs together with what lies outside of the grid. What does not
+  /// is a fault of the grid, or a body that is open at a hole finer than it.
   static bool fill_cavities(SolidGrid& grid) {
     std::vector<char> reached(grid.size(), 0);
     std::vector<std::uint32_t> waiting;
@@ -183,7 +184,8 @@ class Mesher {
     return any;
   }
 
-  /// The tetrahedron of the grid that holds a point: its diagonal's cube is entered by the largest coordinate first.
+  /// The tetrahedron of the grid that holds a point: its diagonal's cube is entered by the largest coordinate
+  /// first.
   static std::array<std::uint32_t, 4> tetrahedron_at(const SolidGrid& grid, const Vec3& p) {
     const GridIndex cube = grid.cube_of(p);
     const Vec3 from = (p - grid.point(cube)) / grid.step();
@@ -198,8 +200,8 @@ class Mesher {
     return corners;
   }
 
-  /// A surface that meets no caster encloses all of a set of faces that hang together or none of it. So one corner of each
-  /// set has to be inside for certain: in a tetrahedron whose corners all are.
+  /// A surface that meets no caster encloses all of a set of faces that hang together or none of it. So one
+  /// corner of each set has to be inside for certain: in a tetrahedron whose corners all are.
   void enclose_casters(SolidGrid& grid) const {
     std::vector<char> enclosed(tree_.component_count(), 0);
     const auto corners_inside = [&](const std::array<std::uint32_t, 4>& t) {

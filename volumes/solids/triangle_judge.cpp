@@ -11,8 +11,8 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-// Speed. Triangles that share what is found of casters: at most so many, in a box of at most so many tolerances a side; fewer
-// are proved one by one.
+// Speed. Triangles that share what is found of casters: at most so many, in a box of at most so many
+// tolerances a side; fewer are proved one by one.
 constexpr std::size_t kMostInGroup = 24, kFewestInGroup = 4;
 constexpr double kGroupSize = 2.5;
 

@@ -26,7 +26,8 @@ PointPattern lattice_points(int n);
 
 class TrianglePoints {
  public:
-  /// One a triangle: bits 0 to 2 stand for its corners, 3 to 5 for its sides, 6 for its inside. Those that are set are left out.
+  /// One a triangle: bits 0 to 2 stand for its corners, 3 to 5 for its sides, 6 for its inside. Those that
+  /// are set are left out.
   using Known = std::vector<std::uint8_t>;
   static constexpr std::uint8_t kWhole = 127;
 
@@ -36,7 +37,8 @@ class TrianglePoints {
 
   /// Of corners, sides and triangles, in this order; neighbors are near each other.
   const std::vector<Vec3>& points() const { return points_; }
-  /// Bits as those of Known, of the points of triangle i that have a fault. `has_fault` is asked by a point's number.
+  /// Bits as those of Known, of the points of triangle i that have a fault. `has_fault` is asked by a point's
+  /// number.
   template <class HasFault>
   std::uint8_t faults(std::size_t i, const HasFault& has_fault) const {
     unsigned out = 0;
@@ -71,7 +73,8 @@ class TrianglePoints {
     return at != list.end() && *at == item ? static_cast<std::size_t>(at - list.begin()) : kNone;
   }
 
-  /// Calls visit(number, bit of its part, barycentric coordinates) for each point of triangle i that is not left out.
+  /// Calls visit(number, bit of its part, barycentric coordinates) for each point of triangle i that is not
+  /// left out.
   template <class Visit>
   void for_each_point(std::size_t i, const Visit& visit) const {
     const IndexedTriangle& t = triangles_[i];

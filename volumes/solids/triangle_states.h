@@ -10,8 +10,8 @@
 
 namespace penumbra::detail {
 
-/// One a triangle: the parts of it that are known to have no fault, as TrianglePoints::Known has them, and whether it could not be
-/// proved. Of a triangle that has no state yet, nothing is known.
+/// One a triangle: the parts of it that are known to have no fault, as TrianglePoints::Known has them, and
+/// whether it could not be proved. Of a triangle that has no state yet, nothing is known.
 class TriangleStates {
  public:
   static constexpr std::uint8_t kUnproved = 128;

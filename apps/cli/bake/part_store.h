@@ -12,7 +12,8 @@ namespace penumbra::apps {
 
 class PartStore {
  public:
-  /// Makes the folder, or goes on in it. Throws UsageError where it belongs to other settings or holds something else, SystemError where it cannot be written.
+  /// Makes the folder, or goes on in it. Throws UsageError where it belongs to other settings or holds
+  /// something else, SystemError where it cannot be written.
   PartStore(std::filesystem::path folder, const nlohmann::json& settings);
 
   /// Whether a file of that many values is there.

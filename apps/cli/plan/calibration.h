@@ -4,7 +4,8 @@
 namespace penumbra::apps {
 
 struct Calibration {
-  /// Milliseconds of a frame's visibility by both methods, the least of some: for a ball and loose triangles over a floor.
+  /// Milliseconds of a frame's visibility by both methods, the least of some: for a ball and loose triangles
+  /// over a floor.
   double silhouette_ms = 0.0, reference_ms = 0.0;
   /// The geometric mean of both: above 1 where this machine is faster.
   double speed = 1.0;

@@ -1,5 +1,5 @@
-// What the program needs of MPI, as functions of a library of its own (mpi_library.cpp) that is opened where mpirun has started
-// the program: MPI's libraries cost every other start of it memory and time.
+// What the program needs of MPI, as functions of a library of its own (mpi_library.cpp) that is opened where
+// mpirun has started the program: MPI's libraries cost every other start of it memory and time.
 #pragma once
 
 #include <cstddef>

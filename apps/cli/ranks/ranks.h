@@ -20,8 +20,8 @@ struct RankMessage {
 /// Any thread may call its functions.
 class Ranks {
  public:
-  /// Null where the program was not started by mpirun, or alone. Throws UsageError where it was, and cannot do it: built without
-  /// MPI.
+  /// Null where the program was not started by mpirun, or alone. Throws UsageError where it was, and cannot
+  /// do it: built without MPI.
   static std::unique_ptr<Ranks> of_this_run();
   /// Ends MPI; where `abandon` was called without waiting for others.
   ~Ranks();
@@ -31,7 +31,8 @@ class Ranks {
   int rank() const { return rank_; }
   int size() const { return size_; }
   void send(int to, int tag, const std::string& bytes = {});
-  /// A message that has come, whole; nothing where none has. It never waits for a rank, which may be killed while it sends.
+  /// A message that has come, whole; nothing where none has. It never waits for a rank, which may be killed
+  /// while it sends.
   std::optional<RankMessage> poll();
   /// Ends all processes, with exit code 1.
   [[noreturn]] void abort();

@@ -1,6 +1,6 @@
-// Units of work shared by the ranks of an MPI run. Rank 0 is the only one that has the plan and writes; it also works. The others
-// ask for a unit, do it, send the result, and say every second that they live. One that has said nothing for some time is taken
-// for gone, and its unit is done again.
+// Units of work shared by the ranks of an MPI run. Rank 0 is the only one that has the plan and writes; it
+// also works. The others ask for a unit, do it, send the result, and say every second that they live. One
+// that has said nothing for some time is taken for gone, and its unit is done again.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,8 @@
 
 namespace penumbra::apps {
 
-/// What is left to do, and what comes of it. Units and results are bytes; a worker is a rank. Called by one thread at a time.
+/// What is left to do, and what comes of it. Units and results are bytes; a worker is a rank. Called by one
+/// thread at a time.
 class WorkPlan {
  public:
   virtual ~WorkPlan() = default;

@@ -1,4 +1,5 @@
-// study, step 3: how wrong a setting is. One judge serves all settings of a case, so that references are traced once.
+// study, step 3: how wrong a setting is. One judge serves all settings of a case, so that references are
+// traced once.
 #pragma once
 
 #include <memory>
@@ -36,7 +37,8 @@ class CaseJudge {
   CaseJudge(const StudyCase& seen, const JudgeOptions& options);
   ~CaseJudge();
 
-  /// Cost of the first call O(pixels · samples · log faces), of others far less. Throws what SceneComparison does.
+  /// Cost of the first call O(pixels · samples · log faces), of others far less. Throws what SceneComparison
+  /// does.
   Verdict judge(const Measured& measured);
 
  private:

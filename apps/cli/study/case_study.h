@@ -23,8 +23,8 @@ class CaseStudy {
   CaseStudy(const StudyOptions& options, std::span<const Peer> peers, std::filesystem::path scene_path,
             StudyCase seen);
 
-  /// Measures these of its rows (rows_of). The first call also draws the case without shadows. A peer that fails has no
-  /// rows. Cost of the first call see CaseJudge.
+  /// Measures these of its rows (rows_of). The first call also draws the case without shadows. A peer that
+  /// fails has no rows. Cost of the first call see CaseJudge.
   UnitResult measure(std::span<const std::size_t> rows);
 
  private:

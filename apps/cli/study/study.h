@@ -1,6 +1,6 @@
-// penumbra study: what accuracy costs in time. Every registered method with the settings worth having (settings.h) is
-// timed (measure.h) and judged (case_judge.h) on every scene. Rows are kept as they finish (study_record.h), and shown on
-// one page (study_page.h).
+// penumbra study: what accuracy costs in time. Every registered method with the settings worth having
+// (settings.h) is timed (measure.h) and judged (case_judge.h) on every scene. Rows are kept as they finish
+// (study_record.h), and shown on one page (study_page.h).
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,8 @@ struct StudyOptions {
   bool quick = false;
   /// Whether the memory of each method's defaults is measured, by a program of its own.
   bool memory = true;
-  /// Also how cost grows: of the first scene with its light and with the picture's size, and of a sphere with its faces.
+  /// Also how cost grows: of the first scene with its light and with the picture's size, and of a sphere with
+  /// its faces.
   bool growth = false;
   /// Also what people use instead (peers/). Those that are methods are to be registered before.
   bool peers = false;
@@ -38,9 +39,10 @@ struct StudyOptions {
   std::string commit{};
 };
 
-/// Measures the rows that DIR does not have and writes rows.jsonl, study.json, study.csv, pictures/ and index.html there.
-/// Returns how many rows were measured. Under mpirun only rank 0 writes; the others measure with it (../ranks/) and return nothing.
-/// Throws UsageError where DIR's rows were measured by something else.
+/// Measures the rows that DIR does not have and writes rows.jsonl, study.json, study.csv, pictures/ and
+/// index.html there. Returns how many rows were measured. Under mpirun only rank 0 writes; the others measure
+/// with it (../ranks/) and return nothing. Throws UsageError where DIR's rows were measured by something
+/// else.
 std::optional<std::size_t> run_study(const StudyOptions& options, const Progress& progress = {});
 
 }  // namespace penumbra::apps

@@ -45,7 +45,8 @@ struct GrowthView {
 };
 std::vector<GrowthView> growth_views(const StudyView& view);
 
-/// A sphere over a floor, of 1,280 to 1,310,720 faces, each under the same light. Made one after the other: `level` is 0 to 3.
+/// A sphere over a floor, of 1,280 to 1,310,720 faces, each under the same light. Made one after the other:
+/// `level` is 0 to 3.
 StudyCase sphere_case(int level, const StudyView& view);
 
 }  // namespace penumbra::apps

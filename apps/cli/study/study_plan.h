@@ -1,4 +1,5 @@
-// study: which units are left, and who gets which. Whoever has a case keeps it, since its references are dear.
+// study: which units are left, and who gets which. Whoever has a case keeps it, since its references are
+// dear.
 #pragma once
 
 #include <deque>
@@ -14,13 +15,13 @@ namespace penumbra::apps {
 
 class StudyPlan {
  public:
-  /// All units whose rows the record has not, of methods and of the peers that are named in `at_hand`. At most `group` rows of
-  /// methods are a unit. Makes every case once, for its digest.
+  /// All units whose rows the record has not, of methods and of the peers that are named in `at_hand`. At
+  /// most `group` rows of methods are a unit. Makes every case once, for its digest.
   StudyPlan(const StudyCases& cases, const StudyRecord& record, std::span<const Peer> peers,
             const std::vector<std::string>& at_hand, std::size_t group);
 
-  /// The next unit for a worker, a number of his own: of the case that he has, of one that nobody has, of the one with the most
-  /// units. Nothing where no unit is left; others may still be at work.
+  /// The next unit for a worker, a number of his own: of the case that he has, of one that nobody has, of the
+  /// one with the most units. Nothing where no unit is left; others may still be at work.
   std::optional<StudyUnit> next(int worker);
   /// The worker's unit is done.
   void finish(int worker);

@@ -1,6 +1,6 @@
-// study, step 4: rows as they finish. DIR/rows.jsonl has one JSON object a line: "about" first, then a "case" before its
-// rows, then "row" by "row". A line that an interrupt has cut is left out when the file is read again, and its row is
-// measured again.
+// study, step 4: rows as they finish. DIR/rows.jsonl has one JSON object a line: "about" first, then a "case"
+// before its rows, then "row" by "row". A line that an interrupt has cut is left out when the file is read
+// again, and its row is measured again.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,14 @@ namespace penumbra::apps {
 
 class StudyRecord {
  public:
-  /// Reads what is there, or begins the file. `about` says what measures: machine, version, commit. Throws UsageError where the
-  /// file's rows were measured by something else, SystemError where it cannot be read or written.
+  /// Reads what is there, or begins the file. `about` says what measures: machine, version, commit. Throws
+  /// UsageError where the file's rows were measured by something else, SystemError where it cannot be read or
+  /// written.
   StudyRecord(std::filesystem::path folder, nlohmann::json about);
 
   bool has_row(const std::string& key) const { return keys_.contains(key); }
-  /// Writes its pictures, then the case, then those of its rows that are not there by "key". Returns how many these were.
+  /// Writes its pictures, then the case, then those of its rows that are not there by "key". Returns how many
+  /// these were.
   std::size_t add(const UnitResult& result);
 
   const std::filesystem::path& folder() const { return folder_; }

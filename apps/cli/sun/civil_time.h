@@ -12,11 +12,12 @@ struct CivilTime {
   int offset = 0;
 };
 
-/// "2026-06-21", "2026-06-21T04:30", "2026-06-21T04:30:15.5", with "Z" or "+02:00" behind; without either it is UTC. Throws UsageError
-/// that names the option.
+/// "2026-06-21", "2026-06-21T04:30", "2026-06-21T04:30:15.5", with "Z" or "+02:00" behind; without either it
+/// is UTC. Throws UsageError that names the option.
 CivilTime parse_time(const std::string& option, const std::string& text);
 
-/// Seconds: "1h", "15min", "30s", "1d"; also with a fraction. Throws UsageError that names the option unless it is above 0.
+/// Seconds: "1h", "15min", "30s", "1d"; also with a fraction. Throws UsageError that names the option unless
+/// it is above 0.
 double parse_duration(const std::string& option, const std::string& text);
 
 /// "2026-06-21T04:30:15+02:00", to the nearest second, or to so many digits behind it.

@@ -22,13 +22,15 @@ struct ReceiverSet {
   }
 };
 
-/// Points of .csv (x, y, z and perhaps a normal, one point a line; a line of names may be first), .npy (shape (n, 3) or (n, 6)) or
-/// .ply (vertices, with nx, ny, nz or without). Normals of any length but 0. Throws MeshError with the line or row.
+/// Points of .csv (x, y, z and perhaps a normal, one point a line; a line of names may be first), .npy (shape
+/// (n, 3) or (n, 6)) or .ply (vertices, with nx, ny, nz or without). Normals of any length but 0. Throws
+/// MeshError with the line or row.
 ReceiverSet read_receivers(const std::filesystem::path& path);
 
 enum class ReceiverPlace { kVertices, kFaces };
-/// The centers of an object's faces with the faces' normals; or its vertices with the mean of the faces' normals, weighted by area. A vertex
-/// whose faces cancel each other is left out. `object`: as for surface_of.
+/// The centers of an object's faces with the faces' normals; or its vertices with the mean of the faces'
+/// normals, weighted by area. A vertex whose faces cancel each other is left out. `object`: as for
+/// surface_of.
 ReceiverSet receivers_on(const Scene& scene, const std::string& object, ReceiverPlace place);
 
 }  // namespace penumbra::apps

@@ -11,7 +11,8 @@
 
 namespace penumbra::apps {
 
-/// Rows of visibilities as they are found: CSV with time, azimuth and elevation before them, or NPY of shape (times, receivers).
+/// Rows of visibilities as they are found: CSV with time, azimuth and elevation before them, or NPY of shape
+/// (times, receivers).
 class SunTable {
  public:
   /// Begins the file. Refers to the stream; null: nothing is written.

@@ -19,11 +19,12 @@ struct Surface {
   Vec3 cross(std::size_t triangle) const;
 };
 
-/// Numbers of the objects that are meant: one, or the tiles that follow each other of the first heightfield of that name. `name` as for surface_of; throws like it.
+/// Numbers of the objects that are meant: one, or the tiles that follow each other of the first heightfield
+/// of that name. `name` as for surface_of; throws like it.
 std::vector<std::size_t> objects_named(const Scene& scene, const std::string& name);
 
-/// `name`: of a mesh or of a heightfield as the scene file has it, or the number of an object, a tile say. Vertices where tiles meet are one. Throws
-/// UsageError that lists what there is.
+/// `name`: of a mesh or of a heightfield as the scene file has it, or the number of an object, a tile say.
+/// Vertices where tiles meet are one. Throws UsageError that lists what there is.
 Surface surface_of(const Scene& scene, const std::string& name);
 
 }  // namespace penumbra::apps

@@ -6,8 +6,8 @@
 
 namespace penumbra::apps {
 
-/// Makes and writes what is asked for under one light; where the volumes are solids, sheets alone. `name`: where the files of several
-/// lights are told apart by it.
+/// Makes and writes what is asked for under one light; where the volumes are solids, sheets alone. `name`:
+/// where the files of several lights are told apart by it.
 VolumeReport write_cells(const VolumeArguments& arguments, const Scene& scene, const CircularLight& light,
                          const std::string& name);
 

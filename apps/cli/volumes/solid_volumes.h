@@ -9,7 +9,8 @@ namespace penumbra::apps {
 /// Throws UsageError where --tolerance is no length.
 void require_tolerance(const VolumeArguments& arguments);
 
-/// Makes and writes what is asked for under one light. `name`: where the files of several lights are told apart by it.
+/// Makes and writes what is asked for under one light. `name`: where the files of several lights are told
+/// apart by it.
 VolumeReport write_solids(const VolumeArguments& arguments, const Scene& scene, const LightShape& light,
                           const std::string& name);
 

@@ -26,7 +26,8 @@ struct VolumeArguments {
 
   bool writes_volumes() const { return !umbra.empty() || !penumbra.empty() || !level_file.empty(); }
   bool only_report() const { return !writes_volumes() && sheets.empty(); }
-  /// Where results go, of which one may be standard output. What --check finds goes there unless the report does.
+  /// Where results go, of which one may be standard output. What --check finds goes there unless the report
+  /// does.
   std::vector<std::filesystem::path> destinations() const {
     std::vector<std::filesystem::path> all = {umbra, penumbra, sheets, level_file, report};
     if (check && !is_standard(report)) all.emplace_back("-");

@@ -6,7 +6,8 @@
 namespace penumbra::viewer {
 namespace {
 
-// Along the ray, or infinity (T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997).
+// Along the ray, or infinity (T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection",
+// 1997).
 double distance_to(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& from, const Vec3& direction) {
   const Vec3 u = b - a, v = c - a, p = glm::cross(direction, v);
   const double determinant = glm::dot(u, p);

@@ -7,8 +7,8 @@
 
 namespace penumbra::viewer {
 
-/// The first point of the scene on the light's axis; where it meets none, the point of the axis nearest to the middle of the casters;
-/// none where that is behind the light. Cost O(triangles).
+/// The first point of the scene on the light's axis; where it meets none, the point of the axis nearest to
+/// the middle of the casters; none where that is behind the light. Cost O(triangles).
 std::optional<Vec3> lit_point(const Scene& scene, const DiskLight& light);
 
 }  // namespace penumbra::viewer

@@ -10,7 +10,8 @@ namespace penumbra::viewer {
 
 struct HandledLight {
   DiskLight disk;
-  /// Of a distant light, which has no place: the middle of the sphere over which its disk slides, always facing it.
+  /// Of a distant light, which has no place: the middle of the sphere over which its disk slides, always
+  /// facing it.
   std::optional<Vec3> middle{};
 
   HandledLight(const DiskLight& near) : disk(near) {}  // NOLINT(google-explicit-constructor)
@@ -18,12 +19,12 @@ struct HandledLight {
   bool operator==(const HandledLight&) const = default;
 };
 
-/// A disk is itself; a rectangle has the disk around it; a distant light has a disk of its angle that faces the
-/// middle of `casters`, twice their radius away.
+/// A disk is itself; a rectangle has the disk around it; a distant light has a disk of its angle that faces
+/// the middle of `casters`, twice their radius away.
 HandledLight handled(const LightShape& shape, const Bounds& casters);
 
-/// The light whose disk was changed from handled(shape, ...) = `before` to `after`. A rectangle keeps its proportions.
-/// A distant light takes the normal as its direction, and its angle from the radius.
+/// The light whose disk was changed from handled(shape, ...) = `before` to `after`. A rectangle keeps its
+/// proportions. A distant light takes the normal as its direction, and its angle from the radius.
 LightShape changed(const LightShape& shape, const HandledLight& before, const HandledLight& after);
 
 /// A distant light by where it is seen in the sky, y up.

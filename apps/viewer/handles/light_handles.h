@@ -1,7 +1,7 @@
 // Handles by which the light is moved, tilted and resized in the picture.
 //
-// A distant light has no place: it is turned by its center, which slides over a sphere around the casters, and by its
-// normal; its rim changes its angle.
+// A distant light has no place: it is turned by its center, which slides over a sphere around the casters,
+// and by its normal; its rim changes its angle.
 //
 // In: light, projection. Out: where the handles are seen, which one is under the pointer, and the light after
 // a drag. No drawing and no window here.
@@ -25,9 +25,8 @@ struct HandleShape {
   Vec3 center;
   std::vector<Vec3> axis_tips;  ///< three, none for a distant light
   Vec3 normal_tip;
-  Vec3
-      rim_knob;  ///< where the rim's knob is drawn, for a distant light outside of its small rim; the whole rim
-                 ///< can be dragged
+  Vec3 rim_knob;  ///< where the rim's knob is drawn, for a distant light outside of its small rim; the whole
+                  ///< rim can be dragged
   std::vector<Vec3> rim;  ///< closed polygon, the first corner not repeated
 };
 HandleShape handle_shape(const HandledLight& light, const Projection& projection);

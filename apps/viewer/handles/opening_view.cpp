@@ -32,7 +32,8 @@ std::vector<Vec3> points_of(const HandledLight& light, const Camera& camera, int
   return out;
 }
 
-// Where the box's shadow from the light's center falls on the plane through the scene's lowest point, as far as the scene goes.
+// Where the box's shadow from the light's center falls on the plane through the scene's lowest point, as far
+// as the scene goes.
 std::vector<Vec3> shadow_of(const Bounds& casters, const Bounds& scene, const Vec3& light, const Vec3& up) {
   double ground = INFINITY;
   const std::vector<Vec3> corners = corners_of(casters);
@@ -56,9 +57,9 @@ bool shows(const Projection& projection, const std::vector<Vec3>& points, int wi
   });
 }
 
-// A pinhole that looks along -z from (x, y, z), its half extents at depth 1 being (s, t), sees p where |p.x - x| ≤ s (z - p.z) and
-// |p.y - y| ≤ t (z - p.z). The least z for each direction, and the middle of what is then left. The target is as far away as the
-// first point.
+// A pinhole that looks along -z from (x, y, z), its half extents at depth 1 being (s, t), sees p where |p.x -
+// x| ≤ s (z - p.z) and |p.y - y| ≤ t (z - p.z). The least z for each direction, and the middle of what is
+// then left. The target is as far away as the first point.
 Camera fitted(const Camera& camera, const std::vector<Vec3>& points, int width, int height) {
   const Projection projection(camera, width, height);
   const Vec3 right = projection.right(), up = projection.up(), back = -projection.forward();
@@ -94,7 +95,8 @@ Camera with_light_in_view(const Camera& camera, const Scene& scene, const Handle
   fixed.push_back(camera.target);
   fixed.insert(fixed.end(), shadow.begin(), shadow.end());
   Camera moved = camera;
-  // Handles are as long in the picture wherever the camera is, and so in the scene the longer, the further away it is.
+  // Handles are as long in the picture wherever the camera is, and so in the scene the longer, the further
+  // away it is.
   for (int round = 0; round < 8; ++round) {
     std::vector<Vec3> points = fixed;
     const std::vector<Vec3> more = points_of(light, moved, width, height);

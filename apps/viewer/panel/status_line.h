@@ -1,5 +1,5 @@
-// The line below picture and panel: the last message at the left, what is going on at the right. It is always there, so that
-// nothing moves when there is something to say.
+// The line below picture and panel: the last message at the left, what is going on at the right. It is always
+// there, so that nothing moves when there is something to say.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace penumbra::viewer {
 
-/// What the picture is: "final picture", "full size" while something moves, "draft of 480 × 300, 1/2 of full size"; how many rays;
-/// the error.
+/// What the picture is: "final picture", "full size" while something moves, "draft of 480 × 300, 1/2 of full
+/// size"; how many rays; the error.
 std::string picture_in_words(const Frame* frame, bool settled);
 
 struct StatusLineInput {

@@ -21,7 +21,8 @@ struct CanvasInput {
 
 class Canvas {
  public:
-  /// `plain`: titles and legend are left out. `wake` is called from other threads when there is something new to draw.
+  /// `plain`: titles and legend are left out. `wake` is called from other threads when there is something new
+  /// to draw.
   Canvas(const gl::Functions& gl, bool plain, void (*wake)());
   /// The frame to draw from now on.
   void show(std::shared_ptr<const Frame> frame) { view_.show(std::move(frame)); }

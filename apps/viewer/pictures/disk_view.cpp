@@ -17,8 +17,9 @@ using Polygon = std::vector<Point2>;
 
 /// In the light's frame, as everything here: u, v and the height towards the light.
 ///
-/// A point at d = (u, v, h) from the receiver is seen at q = a + k (u, v)/h in radii, where a is the receiver's place
-/// beside the axis and k its distance from the light's plane, both in radii: 0 and 1/tan(angle/2) for a distant light.
+/// A point at d = (u, v, h) from the receiver is seen at q = a + k (u, v)/h in radii, where a is the
+/// receiver's place beside the axis and k its distance from the light's plane, both in radii: 0 and
+/// 1/tan(angle/2) for a distant light.
 class DiskRaster {
  public:
   DiskRaster(const AreaLight& light, const Vec3& x, int size)

@@ -18,9 +18,9 @@ struct Viewpoint {
   std::uint32_t face = 0;
 };
 
-/// `size` pixels a side, the disk, near or distant, filling most of it. Light where nothing is in the way, dark where
-/// a caster is, outlined, brown below the horizon; faint outside of the disk. Empty where the point is behind the
-/// light or the radius is 0. Cost O(faces + covered pixels).
+/// `size` pixels a side, the disk, near or distant, filling most of it. Light where nothing is in the way,
+/// dark where a caster is, outlined, brown below the horizon; faint outside of the disk. Empty where the
+/// point is behind the light or the radius is 0. Cost O(faces + covered pixels).
 Pixels disk_seen_from(const Scene& scene, const AreaLight& light, const Viewpoint& from, int size);
 
 }  // namespace penumbra::viewer

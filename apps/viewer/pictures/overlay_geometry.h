@@ -20,8 +20,8 @@ struct OverlayGeometry {
   Vec3 origin{0.0};
   std::vector<OverlayVertex> scene;  ///< every object's triangles, for depth only
   std::vector<OverlayVertex> faces, lines, sheets;
-  /// Where light begins its way through the scene: a point of the light's plane, or the first point of the scene where
-  /// the light is far away.
+  /// Where light begins its way through the scene: a point of the light's plane, or the first point of the
+  /// scene where the light is far away.
   Vec3 start{0.0};
   double reach = 0.0;  ///< from there to the furthest point of the scene, along the light's normal
   double bound =

@@ -94,8 +94,8 @@ void SolidPass::draw_surface(const Glass& glass, GLenum culled) const {
   gl_.Disable(GL_CULL_FACE);
 }
 
-// What is left of a closed surface shows as many front faces as back faces along a line, unless the line crosses the cut inside of it:
-// the stencil counts the difference, and the square is drawn where it is not 0.
+// What is left of a closed surface shows as many front faces as back faces along a line, unless the line
+// crosses the cut inside of it: the stencil counts the difference, and the square is drawn where it is not 0.
 void SolidPass::draw_section(const Glass& glass, float cut) const {
   gl_.Enable(GL_STENCIL_TEST);
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

@@ -1,5 +1,5 @@
-// Draws solids over the picture as glass: clear where one looks at their surface, denser where one looks along it. Where they are cut
-// the section is filled.
+// Draws solids over the picture as glass: clear where one looks at their surface, denser where one looks
+// along it. Where they are cut the section is filled.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ class SolidPass {
   explicit SolidPass(const gl::Functions& gl);
   /// Uploads when it is another one. Null: nothing will be drawn.
   void set(std::shared_ptr<const Solids> solids);
-  /// After OverlayPass, whose depth buffer it uses, into the same pixels; blending must be on. `faint`: they are those of
-  /// another light than that of now. Changes GL state freely.
+  /// After OverlayPass, whose depth buffer it uses, into the same pixels; blending must be on. `faint`: they
+  /// are those of another light than that of now. Changes GL state freely.
   void draw(const State& state, const OverlayGeometry& geometry, const Viewport& place, bool faint) const;
 
  private:

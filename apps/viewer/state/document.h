@@ -12,7 +12,8 @@ namespace penumbra::viewer {
 
 class Document {
  public:
-  /// Opens the file. `before` has the settings to start with, and the size of the picture. Throws what load_scene throws.
+  /// Opens the file. `before` has the settings to start with, and the size of the picture. Throws what
+  /// load_scene throws.
   Document(const std::filesystem::path& path, const State& before, bool keep_camera);
 
   const State& state() const { return state_; }

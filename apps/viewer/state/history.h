@@ -1,6 +1,7 @@
 // Undo and redo: the states that were, each as it was.
 //
-// A step is what one gesture did: a drag, a slider, a key. Camera movements that follow one another are one step.
+// A step is what one gesture did: a drag, a slider, a key. Camera movements that follow one another are one
+// step.
 #pragma once
 
 #include <optional>
@@ -11,8 +12,8 @@
 
 namespace penumbra::viewer {
 
-/// What differs between two states, in words: "light", "camera", "method" or "overlays"; empty where a step would
-/// change nothing.
+/// What differs between two states, in words: "light", "camera", "method" or "overlays"; empty where a step
+/// would change nothing.
 std::string difference_in_words(const State& a, const State& b);
 
 class History {
@@ -23,7 +24,8 @@ class History {
   void note(const State& state);
   bool can_undo() const { return at_ > 0; }
   bool can_redo() const { return at_ + 1 < states_.size(); }
-  /// Changes `state` to what it was before the last step, but for the window's size. What was undone, in words.
+  /// Changes `state` to what it was before the last step, but for the window's size. What was undone, in
+  /// words.
   std::string undo(State& state) { return go(state, -1); }
   std::string redo(State& state) { return go(state, 1); }
 

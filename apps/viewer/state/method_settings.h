@@ -1,5 +1,5 @@
-// The settings of methods as names and texts, from the registry: what `penumbra render` takes, the viewer shows,
-// and a state saved by one is understood by the other.
+// The settings of methods as names and texts, from the registry: what `penumbra render` takes, the viewer
+// shows, and a state saved by one is understood by the other.
 #pragma once
 
 #include <string>

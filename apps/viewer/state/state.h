@@ -41,9 +41,9 @@ struct Overlays {
   bool textures = false;  ///< what the D-buffer or the occlusion textures hold
   /// Detail to which solids are refined, in parts of the casters' diagonal.
   double detail = 0.02;
-  /// Sheets, volumes and solids are drawn up to this part of the way: from the light's plane, or from the scene's first point
-  /// where the light is far away, to the scene's far end; or along an axis, half way through the middle of
-  /// the casters.
+  /// Sheets, volumes and solids are drawn up to this part of the way: from the light's plane, or from the
+  /// scene's first point where the light is far away, to the scene's far end; or along an axis, half way
+  /// through the middle of the casters.
   double cut = 1.0;
   CutAxis cut_axis = CutAxis::kLight;
   bool solids() const { return penumbra_solid || umbra_solid; }

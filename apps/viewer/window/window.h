@@ -52,7 +52,8 @@ class Window {
   };
   std::vector<Key> take_keys();
 
-  /// Waits for an event at most so long; a negative time has no end. `wake` ends it from any thread. False: none came in time.
+  /// Waits for an event at most so long; a negative time has no end. `wake` ends it from any thread. False:
+  /// none came in time.
   bool wait(double seconds);
   static void wake();
 

@@ -5,18 +5,22 @@
 namespace penumbra::viewer {
 namespace {
 
-/// Milliseconds. 25 pictures a second leave 40, of which the window takes some until it asks for the next one.
+/// Milliseconds. 25 pictures a second leave 40, of which the window takes some until it asks for the next
+/// one.
 constexpr double kBudget = 36.0;
-/// A draft that is being shown may take so much longer before it becomes coarser, so that it does not change back and forth.
+/// A draft that is being shown may take so much longer before it becomes coarser, so that it does not change
+/// back and forth.
 constexpr double kSlack = 1.15;
-/// Of what is known, the part that one more draft replaces: one that something else on the machine held up changes nothing.
+/// Of what is known, the part that one more draft replaces: one that something else on the machine held up
+/// changes nothing.
 constexpr double kNewest = 0.5;
 /// Drafts, about two seconds.
 constexpr int kMostPatience = 64;
 /// Of a draft's time, so much is taken not to depend on its size when a finer one is thought of.
 constexpr double kFixed = 0.3;
-/// A finer draft of which nothing is known is tried where it is expected to take no more than so many budgets: on a busy machine
-/// much more of a draft's time does not depend on its size. In vain it is tried less and less often.
+/// A finer draft of which nothing is known is tried where it is expected to take no more than so many
+/// budgets: on a busy machine much more of a draft's time does not depend on its size. In vain it is tried
+/// less and less often.
 constexpr double kVentured = 2.0;
 
 OptionValue value_now(const OptionSchema& option, const RenderOptions& options) {

@@ -1,4 +1,5 @@
-// What is rendered while the light or the camera moves: the same method at full size where it keeps up, else cheaper.
+// What is rendered while the light or the camera moves: the same method at full size where it keeps up, else
+// cheaper.
 #pragma once
 
 #include <array>
@@ -7,7 +8,8 @@
 
 namespace penumbra::viewer {
 
-/// What pictures took tells how fine the next draft is: as fine as is expected to take no more than the budget.
+/// What pictures took tells how fine the next draft is: as fine as is expected to take no more than the
+/// budget.
 class DraftPolicy {
  public:
   /// How many pixels of the window one pixel of the draft covers along each side; 1: the full picture.
@@ -16,10 +18,11 @@ class DraftPolicy {
   RenderOptions draft_of(const RenderOptions& options) const;
   /// Whether a draft of full size is the picture itself.
   static bool is_as_cheap(const RenderOptions& options);
-  /// Tells how long the first picture of a scene took. Later ones take less, so it decides on the first draft and nothing else.
+  /// Tells how long the first picture of a scene took. Later ones take less, so it decides on the first draft
+  /// and nothing else.
   void start(double milliseconds);
-  /// Tells how long the last draft took, all sides together, and whether the camera moved: then drafts cost more, and what is
-  /// known of those of a light is forgotten.
+  /// Tells how long the last draft took, all sides together, and whether the camera moved: then drafts cost
+  /// more, and what is known of those of a light is forgotten.
   void took(double milliseconds, bool camera_moved);
   /// The same of a picture of full size of which a draft takes no longer, or, where it is as cheap, as long.
   void took_in_full(double milliseconds, bool camera_moved, bool as_cheap);
@@ -31,7 +34,8 @@ class DraftPolicy {
     double milliseconds = 0.0;
     /// How many drafts it is still believed. A reduction that is too slow is tried again after that.
     int believed = 0;
-    /// For how many it is when that reduction is too slow the next time: longer each time that it was tried in vain.
+    /// For how many it is when that reduction is too slow the next time: longer each time that it was tried
+    /// in vain.
     int patience = kFirstPatience;
   };
 

@@ -1,5 +1,5 @@
-// What the viewer writes besides one picture: umbra and penumbra as solids, sheets and cells, a sequence of pictures along the
-// light's path.
+// What the viewer writes besides one picture: umbra and penumbra as solids, sheets and cells, a sequence of
+// pictures along the light's path.
 #pragma once
 
 #include <atomic>
@@ -13,17 +13,19 @@
 
 namespace penumbra::viewer {
 
-/// Writes files into a folder and returns in one line what was written. Throws what it meets outside, and Cancelled.
+/// Writes files into a folder and returns in one line what was written. Throws what it meets outside, and
+/// Cancelled.
 struct Export {
   const char* name;  ///< "umbra and penumbra"
   std::string (*run)(const std::filesystem::path& folder, const State& state, const Progress& progress);
 };
 
-/// FOLDER/STEM-001-umbra.ply and -penumbra.ply: the solids of all casters together under the selected light, as `penumbra volumes
-/// --merge` makes them, or finer where the panel asks for more detail. The number is the first for which there are no files.
+/// FOLDER/STEM-001-umbra.ply and -penumbra.ply: the solids of all casters together under the selected light,
+/// as `penumbra volumes --merge` makes them, or finer where the panel asks for more detail. The number is the
+/// first for which there are no files.
 extern const Export kSolidExport;
-/// FOLDER/STEM-001-sheets.ply, -penumbra-cells.ply and -umbra-cells.ply of all casters, as `penumbra volumes --form cells` makes
-/// them.
+/// FOLDER/STEM-001-sheets.ply, -penumbra-cells.ply and -umbra-cells.ply of all casters, as `penumbra volumes
+/// --form cells` makes them.
 extern const Export kCellExport;
 /// FOLDER/STEM-path-001.png and on: 24 pictures of the left method along the light's path, full quality.
 extern const Export kSequenceExport;

@@ -75,7 +75,8 @@ std::optional<ErrorFigures> error_of(const Frame& frame, const Accumulator& refe
   return std::nullopt;
 }
 
-/// Milliseconds of all sides without what is made once and what the camera sees, which stays while only a light moves.
+/// Milliseconds of all sides without what is made once and what the camera sees, which stays while only a
+/// light moves.
 double without_camera(const Frame& frame) {
   double sum = 0.0;
   for (const Side& side : frame.sides)
@@ -84,8 +85,8 @@ double without_camera(const Frame& frame) {
   return sum;
 }
 
-/// Whether the next picture takes as long. Where only a light moves, the first picture of another size does not tell: the
-/// camera's rays, and receivers in groups, are kept for those that follow.
+/// Whether the next picture takes as long. Where only a light moves, the first picture of another size does
+/// not tell: the camera's rays, and receivers in groups, are kept for those that follow.
 bool tells(const Frame& frame, bool camera_moved) {
   return camera_moved ||
          std::ranges::all_of(frame.sides, [](const Side& side) { return side.result->camera_rays == 0; });

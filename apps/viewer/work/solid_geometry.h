@@ -12,8 +12,8 @@ struct SolidVertex {
   float nx, ny, nz;
 };
 
-/// Three vertices a triangle. A corner's normal is the mean, by area, of the triangles around it whose planes are within 35 degrees
-/// of its own.
+/// Three vertices a triangle. A corner's normal is the mean, by area, of the triangles around it whose planes
+/// are within 35 degrees of its own.
 std::vector<SolidVertex> solid_triangles(const ShadowMesh& mesh, const Vec3& origin);
 
 }  // namespace penumbra::viewer

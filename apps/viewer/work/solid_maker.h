@@ -1,6 +1,7 @@
-// Umbra and penumbra solids in the background: coarse ones first, then finer ones up to the detail that is wanted. What is under way for
-// a light that has moved is given up; only the coarsest is made to its end, so that something is there while the light moves. Where that
-// takes too long to follow a hand, nothing is made until the light is still.
+// Umbra and penumbra solids in the background: coarse ones first, then finer ones up to the detail that is
+// wanted. What is under way for a light that has moved is given up; only the coarsest is made to its end, so
+// that something is there while the light moves. Where that takes too long to follow a hand, nothing is made
+// until the light is still.
 #pragma once
 
 #include <atomic>
@@ -36,7 +37,8 @@ class SolidMaker {
   /// `wake` is called from the thread whenever a solid is ready.
   explicit SolidMaker(void (*wake)()) : wake_(wake) {}
   ~SolidMaker();
-  /// To be called each window frame; `moving`: the light is being changed. The newest solids that are ready, null where none are wanted.
+  /// To be called each window frame; `moving`: the light is being changed. The newest solids that are ready,
+  /// null where none are wanted.
   std::shared_ptr<const Solids> update(const State& state, bool moving);
   /// They are not those of this state's light.
   bool outdated(const State& state) const;

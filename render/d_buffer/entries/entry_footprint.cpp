@@ -17,7 +17,8 @@ constexpr double kUnlimited = -std::numeric_limits<double>::infinity();
 /// Accuracy. Boundaries are drawn farther than rays found them to reach by this part, since rays probe a few
 /// points only (Resampler.LessensTheError, DBufferScenes).
 constexpr double kMargin = 0.1;
-/// Keeps of a segment what is in front of a plane, by the ends' distances from it; false where nothing is left.
+/// Keeps of a segment what is in front of a plane, by the ends' distances from it; false where nothing is
+/// left.
 bool cut(glm::dvec4& a, glm::dvec4& b, double da, double db) {
   if (!(da >= 0.0 || db >= 0.0)) return false;
   if (da < 0.0) a = b + (a - b) * (db / (db - da));
@@ -40,8 +41,8 @@ VertexId EntryFootprints::end_of(const SupportFacet& f) const {
   return f.flipped ? e.from : e.to;
 }
 
-/// From where receivers at the height 0 and above, within the window, see the disk: at most h beyond the window. As
-/// much again is kept on every side. What lies below all receivers hides nothing.
+/// From where receivers at the height 0 and above, within the window, see the disk: at most h beyond the
+/// window. As much again is kept on every side. What lies below all receivers hides nothing.
 std::optional<EntryFootprints::Segment> EntryFootprints::segment(VertexId from, VertexId to) const {
   glm::dvec4 a = space_.homogeneous(mesh_.position(from)), b = space_.homogeneous(mesh_.position(to));
   const glm::dvec4 first = a, last = b;
@@ -146,8 +147,8 @@ double EntryFootprints::dilation(const glm::dvec2& uv) const {
   return options_.dilation * (options_.is_hemicube ? 1.0 + glm::length(uv) : 1.0);
 }
 
-/// How far in (u, v) the boundary extends from a point at the height h before it meets a surface or the lowest
-/// receiver.
+/// How far in (u, v) the boundary extends from a point at the height h before it meets a surface or the
+/// lowest receiver.
 double EntryFootprints::extent(double h, double end, double far_height) const {
   const double far = std::max(options_.far_height, far_height);
   return std::max(0.0, h - std::max(far, end - kMargin * (h - end)));

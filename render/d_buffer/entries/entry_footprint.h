@@ -1,9 +1,9 @@
 // D-buffer step 4: what facets, cone sectors and gap faces cover, seen from the light's center.
 //
-// In: a caster's supports in world space. Out: polygons in (u, v, h) of light space (render/d_buffer/view/light_space.h),
-// dilated so that every texel they touch is drawn. There the plane that touches the disk at rim angle φ is h =
-// cos φ u + sin φ v + κ: it has the slope 1 for every edge. The boundary at a vertex is a circular cone of that slope,
-// with its apex at the vertex.
+// In: a caster's supports in world space. Out: polygons in (u, v, h) of light space
+// (render/d_buffer/view/light_space.h), dilated so that every texel they touch is drawn. There the plane that
+// touches the disk at rim angle φ is h = cos φ u + sin φ v + κ: it has the slope 1 for every edge. The
+// boundary at a vertex is a circular cone of that slope, with its apex at the vertex.
 #pragma once
 
 #include <array>
@@ -30,8 +30,9 @@ class EntryFootprints {
   VertexId begin_of(const SupportFacet& f) const;
   VertexId end_of(const SupportFacet& f) const;
 
-  /// The part of the way from one vertex to another that receivers in the window may see before the disk, and that is
-  /// in front of the light. Float keeps the digits of its ends, which it would not of those of a long edge.
+  /// The part of the way from one vertex to another that receivers in the window may see before the disk, and
+  /// that is in front of the light. Float keeps the digits of its ends, which it would not of those of a long
+  /// edge.
   struct Segment {
     Uvh from, to;
     /// The ends are the vertices, not cut off.
@@ -45,8 +46,8 @@ class EntryFootprints {
     std::array<Uvh, 4> corners;
     double from_height, to_height;
   };
-  /// Of facet i of the supports. `end`: as from facet_reach.h. The facet ends at h = `far_height` if that is greater
-  /// than the options'.
+  /// Of facet i of the supports. `end`: as from facet_reach.h. The facet ends at h = `far_height` if that is
+  /// greater than the options'.
   std::optional<Facet> facet(std::uint32_t i, double end, double far_height) const;
 
   /// The circle that the whole cone covers; h falls from the apex to all sides.

@@ -17,8 +17,8 @@ class Prober {
  public:
   explicit Prober(const ProbeSource& source) : from_(source), axes_(light_frame(source.light)) {}
 
-  /// Where the light that grazes the target ends, coming from the rim's point at an angle. What touches the target hides
-  /// nothing: rays start on it.
+  /// Where the light that grazes the target ends, coming from the rim's point at an angle. What touches the
+  /// target hides nothing: rays start on it.
   double end(const RayStart& target, double angle) const {
     const Vec3 out = axes_.u * std::cos(angle) + axes_.v * std::sin(angle);
     const Vec3 way = way_to_center(from_.light, target.point) + from_.light.radius * out;

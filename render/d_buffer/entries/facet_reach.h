@@ -2,10 +2,10 @@
 //
 // In: supports, rays. Out: a height a facet and a cone sector. That a plane touches disk and caster is a
 // local property: the light that grazes an edge may be blocked before it gets there, or by another part of
-// the scene soon after. Two rays from the edge tell: one to the point where the plane touches the disk, one on. A
-// facet whose edge is hidden is not drawn, and one that is cut short ends there: there is less to draw, and
-// no exit from an umbra that something else still darkens. The 2004 paper has neither; its section 6.2 names
-// the artifacts.
+// the scene soon after. Two rays from the edge tell: one to the point where the plane touches the disk, one
+// on. A facet whose edge is hidden is not drawn, and one that is cut short ends there: there is less to draw,
+// and no exit from an umbra that something else still darkens. The 2004 paper has neither; its section 6.2
+// names the artifacts.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace penumbra::detail {
 
-/// Heights h of light space, of the surface that is hit behind the edge: -infinity where none is, kHidden where the
-/// edge is hidden from the point that the plane touches the disk in.
+/// Heights h of light space, of the surface that is hit behind the edge: -infinity where none is, kHidden
+/// where the edge is hidden from the point that the plane touches the disk in.
 struct FacetReach {
   static constexpr double kHidden = std::numeric_limits<double>::infinity();
   /// One a facet, one a cone sector.

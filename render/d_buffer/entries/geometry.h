@@ -29,10 +29,10 @@ struct EntryVertex {
 struct EntryGeometry {
   /// Triangles, three vertices each.
   std::vector<EntryVertex> penumbra, umbra;
-  /// Four points (u, v, h) a facet: the begin of the previous edge, the edge's ends a and b, the end of the next
-  /// edge, as far as they are kept (EntryFootprints::segment). Directed so that the lit side is positive
-  /// (SupportFacet::flipped). The fourth number of the first point is 1 + the previous facet, of the last 1 + the
-  /// next; 0: none.
+  /// Four points (u, v, h) a facet: the begin of the previous edge, the edge's ends a and b, the end of the
+  /// next edge, as far as they are kept (EntryFootprints::segment). Directed so that the lit side is positive
+  /// (SupportFacet::flipped). The fourth number of the first point is 1 + the previous facet, of the last 1 +
+  /// the next; 0: none.
   std::vector<glm::vec4> records;
 };
 

@@ -44,13 +44,13 @@ class ReceiverGrid {
 
   /// Receivers everywhere, as far away as can be: every entry may be read.
   ReceiverGrid() = default;
-  /// The receivers of an image in the only target. `seen`: as from CenterRays::center_seen; `size`: texels a side of
-  /// the target. Cost O(pixels), on all cores.
+  /// The receivers of an image in the only target. `seen`: as from CenterRays::center_seen; `size`: texels a
+  /// side of the target. Cost O(pixels), on all cores.
   ReceiverGrid(const ImageReceivers& image, std::span<const float> seen, const Target& target, int size);
 
   bool is_everywhere() const { return levels_.empty(); }
-  /// A lower bound of h of the receivers within `bounds` that read entries of this kind: what is not higher is not
-  /// read there. kNone where there is no such receiver. Cost O(1).
+  /// A lower bound of h of the receivers within `bounds` that read entries of this kind: what is not higher
+  /// is not read there. kNone where there is no such receiver. Cost O(1).
   double least_height(SupportKind kind, const UvBounds& bounds) const;
   /// One a pixel; none for receivers everywhere.
   std::span<const Reads> reads() const { return reads_; }

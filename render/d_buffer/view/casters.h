@@ -24,7 +24,8 @@ struct DBufferCaster {
 /// All casters, in the order of the scene. Cost O(vertices + faces).
 std::vector<DBufferCaster> find_casters(const Scene& scene);
 
-/// Of each object the number of its first face, counted over all objects of the scene; then the number of all faces.
+/// Of each object the number of its first face, counted over all objects of the scene; then the number of all
+/// faces.
 std::vector<std::uint32_t> first_faces(const Scene& scene);
 
 /// One caster's place in the buffers.
@@ -36,8 +37,8 @@ struct CasterRange {
   bool closed;
   /// Of this frame's light: not drawn (DBufferCaster::cannot_occlude).
   bool cannot_occlude = false;
-  /// The light's center sees only faces that are turned to it: the caster is closed, and the light's plane does not cut
-  /// it open.
+  /// The light's center sees only faces that are turned to it: the caster is closed, and the light's plane
+  /// does not cut it open.
   bool shows_only_fronts = false;
 };
 
@@ -52,7 +53,8 @@ CasterTriangles caster_triangles(const Scene& scene);
 
 /// What one light sees of CasterTriangles::points.
 struct CastersInLight {
-  /// LightSpace::homogeneous in the space without a window. Those of casters that cannot occlude are left out: 0.
+  /// LightSpace::homogeneous in the space without a window. Those of casters that cannot occlude are left
+  /// out: 0.
   std::vector<glm::dvec4> points;
 };
 /// Also finds which casters show only fronts. Cost O(vertices), on all cores.

@@ -1,7 +1,8 @@
 // D-buffer step 3: the image's receivers in light space.
 //
-// In: receivers in double, a light's space. Out: their places in it, in double; then, relative to a window, in float.
-// Receivers are transformed for every light: what is far from the window keeps no digits, and what is in it all.
+// In: receivers in double, a light's space. Out: their places in it, in double; then, relative to a window,
+// in float. Receivers are transformed for every light: what is far from the window keeps no digits, and what
+// is in it all.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +19,8 @@ namespace penumbra::detail {
 
 /// What the shader takes of a receiver for each pixel, in the window's coordinates.
 struct ReceiverTexels {
-  /// (u, v, h), and 1 + the number of the face, counted over all objects of the scene; 0 where nothing is seen,
-  /// negative where the receiver is not in front of the light.
+  /// (u, v, h), and 1 + the number of the face, counted over all objects of the scene; 0 where nothing is
+  /// seen, negative where the receiver is not in front of the light.
   std::vector<glm::vec4> positions;
   /// The plane of the receiver's horizon (LightSpace::plane).
   std::vector<glm::vec4> planes;

@@ -11,8 +11,8 @@ namespace {
 /// three. Too large, and boundaries end too early or too late in the middle of facets
 /// (DBufferScenes.ErrorOnTheFloor).
 constexpr double kNarrow = 1.0 / 32.0;
-/// Speed: how often the window is looked at again for its lowest receiver. Each time it may get smaller, if a floor goes
-/// on to the horizon.
+/// Speed: how often the window is looked at again for its lowest receiver. Each time it may get smaller, if a
+/// floor goes on to the horizon.
 constexpr int kMostRounds = 8;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -23,7 +23,8 @@ struct CasterExtent {
   double high = -kInfinity;
 };
 
-/// A caster adds nothing where all of it is lower than `low`. One that crosses the light's plane may be seen anywhere.
+/// A caster adds nothing where all of it is lower than `low`. One that crosses the light's plane may be seen
+/// anywhere.
 CasterExtent extent_of(const std::vector<glm::dvec4>& points, const CasterRange& range, double low,
                        double highest) {
   CasterExtent out;

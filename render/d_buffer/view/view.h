@@ -1,8 +1,9 @@
 // D-buffer step 3: from where and how wide the casters are seen.
 //
-// In: casters and receivers in light space, texels a side. Out: the window of the light's view, the perspectives that
-// see in it all casters and their penumbrae, and how large the boundaries of casters are drawn there. The window is
-// what both the casters' penumbrae and the receivers are seen in: nobody reads the rest.
+// In: casters and receivers in light space, texels a side. Out: the window of the light's view, the
+// perspectives that see in it all casters and their penumbrae, and how large the boundaries of casters are
+// drawn there. The window is what both the casters' penumbrae and the receivers are seen in: nobody reads the
+// rest.
 #pragma once
 
 #include <vector>
@@ -31,7 +32,8 @@ struct FootprintOptions {
 struct DBufferView {
   /// With the window.
   LightSpace space;
-  /// None where nothing casts on a receiver, one where a single perspective is wide enough, else sides of a hemicube.
+  /// None where nothing casts on a receiver, one where a single perspective is wide enough, else sides of a
+  /// hemicube.
   std::vector<Target> targets{};
   /// Depths that are stored are depth_scale · h · weight / forward.
   double depth_scale = 1.0;
@@ -40,8 +42,8 @@ struct DBufferView {
   bool is_hemicube() const { return targets.size() > 1; }
 };
 
-/// The view of all casters that can occlude. `space` has no window yet; `size`: texels a side. Cost O(vertices +
-/// receivers / 64).
+/// The view of all casters that can occlude. `space` has no window yet; `size`: texels a side. Cost
+/// O(vertices + receivers / 64).
 DBufferView choose_view(const LightSpace& space, const CasterTriangles& triangles,
                         const CastersInLight& casters, const ReceiversInLight& receivers, int size);
 

@@ -6,8 +6,8 @@
 namespace penumbra::detail {
 namespace {
 
-/// The variance of receivers' mean squared errors over their squared mean is taken to be at least this: a sample that has missed
-/// the few that are far off would say less.
+/// The variance of receivers' mean squared errors over their squared mean is taken to be at least this: a
+/// sample that has missed the few that are far off would say less.
 constexpr double kLeastSpread = 2.0 / 3.0;
 
 /// A mean of `degrees` squares of normal numbers.
@@ -59,7 +59,8 @@ class Sums {
   double group_weight_ = 0.0, group_error_ = 0.0;
 };
 
-/// Receivers of whose squared errors the mean is `each`, and the mean square that of squares of normal numbers: 3 each².
+/// Receivers of whose squared errors the mean is `each`, and the mean square that of squares of normal
+/// numbers: 3 each².
 void imagine(Sums& sums, double each) {
   static_assert(kUsualWeight == 3.0);
   for (const double part : {0.0, 0.0, 3.0}) sums.add_group(1.0, part * each);
@@ -81,7 +82,8 @@ Estimate estimate_of(const RayPilot& pilot, const Limit& limit) {
   add_all(pilot, all, [](const auto&) { return 1.0; });
   const Estimate mean = all.estimate();
   if (limit.areas_up_to <= 0) return mean;
-  // Of those that were imagined one is traced: that none of some dozens is does not say that none of thousands is.
+  // Of those that were imagined one is traced: that none of some dozens is does not say that none of
+  // thousands is.
   Sums traced;
   traced.add_group(1.0, mean.mean);
   traced.add_group(kUsualWeight - 1.0, 0.0);
@@ -89,8 +91,9 @@ Estimate estimate_of(const RayPilot& pilot, const Limit& limit) {
   return traced.estimate();
 }
 
-/// By how much the true mean of a number of squares of normal numbers exceeds the one that was seen, at most in nineteen of twenty
-/// cases: degrees over the twentieth part of chi-squared (Wilson and Hilferty, The distribution of chi-square, 1931).
+/// By how much the true mean of a number of squares of normal numbers exceeds the one that was seen, at most
+/// in nineteen of twenty cases: degrees over the twentieth part of chi-squared (Wilson and Hilferty, The
+/// distribution of chi-square, 1931).
 double margin(double degrees) {
   constexpr double kTwentieth = 1.645, kLeast = kUsualWeight;
   const double part = 2.0 / (9.0 * std::max(degrees, kLeast));
@@ -104,7 +107,8 @@ double squared_error(double samples, double variance, double boundary) {
 }
 
 double chance_of_more(double edges, double most, double edges_a_sample) {
-  // Of N edges each was looked at with the probability p = 1 / edges_a_sample: the number seen has the variance N p (1 - p).
+  // Of N edges each was looked at with the probability p = 1 / edges_a_sample: the number seen has the
+  // variance N p (1 - p).
   const double deviation = std::sqrt((edges + edges_a_sample) * std::max(0.0, edges_a_sample - 1.0));
   if (!(deviation > 0.0)) return edges > most ? 1.0 : 0.0;
   return 0.5 * std::erfc((most + 0.5 - edges) / (std::sqrt(2.0) * deviation));

@@ -24,8 +24,9 @@ struct PartlyLit {
   std::uint32_t index, group;
 };
 
-/// All of `partly`. Where these are fewer than `wanted` also four pixels near each that 16 rays find partly lit: what lies beside
-/// penumbra mostly is penumbra, so these cost fewer rays than a search. Together as many as wanted, about. One group after another.
+/// All of `partly`. Where these are fewer than `wanted` also four pixels near each that 16 rays find partly
+/// lit: what lies beside penumbra mostly is penumbra, so these cost fewer rays than a search. Together as
+/// many as wanted, about. One group after another.
 std::vector<PartlyLit> with_neighbors(const RayScene& rays, const LightShape& light,
                                       const Receivers& receivers, std::span<const std::uint32_t> partly,
                                       std::size_t wanted);
@@ -39,8 +40,8 @@ class Twice {
   int samples() const { return first_.samples; }
   /// O, about.
   double open(std::size_t i) const;
-  /// The first rays miss a receiver of which little is open or little is hidden. It stands for all that they find with its
-  /// probability.
+  /// The first rays miss a receiver of which little is open or little is hidden. It stands for all that they
+  /// find with its probability.
   double weight(std::size_t i) const;
   /// Without bias: of V (1 - V), and of the squared error of one estimate.
   double variance(std::size_t i) const;

@@ -24,7 +24,8 @@ constexpr int kMoreRays = 30;                            ///< so many more, twic
 constexpr std::size_t kSeeing = 16, kSeeingPartly = 48;  ///< of each part so many look at edges and faces
 constexpr std::size_t kEdges = 1024, kMostEdges = 2048, kOneEdgeOf = 32, kFaces = 1024;
 
-/// Indices below `count`, the first `wanted` of a sequence that fills the range evenly: multiples of the golden ratio.
+/// Indices below `count`, the first `wanted` of a sequence that fills the range evenly: multiples of the
+/// golden ratio.
 template <class Visit>
 void spread_over(std::size_t count, std::size_t wanted, const Visit& visit) {
   constexpr double kGolden = 0.6180339887498949;
@@ -58,7 +59,8 @@ double boxes_before(const FaceSample& faces, const RayScene& rays, const Circula
   return faces.boxes_on(ray.from.point, ray.way, ray.endless);
 }
 
-/// Summed in their order, so that threads change nothing. `least`: edges that may be there though none was seen.
+/// Summed in their order, so that threads change nothing. `least`: edges that may be there though none was
+/// seen.
 SampledPart mean_of(std::span<const SampledPart> each, double share, double least) {
   SampledPart out{.share = share};
   const auto count = static_cast<double>(each.size());

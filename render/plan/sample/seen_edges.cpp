@@ -14,12 +14,13 @@
 namespace penumbra::detail {
 namespace {
 
-// As the silhouette method merges: faces of casters that have so many; and the length of what is left, light radii, about.
+// As the silhouette method merges: faces of casters that have so many; and the length of what is left, light
+// radii, about.
 constexpr std::size_t kFine = 1024;
 constexpr double kLong = 0.1;
 
-/// Calls visit(mesh, i) for `count` of the items of all casters that may reach, of which each has `items(mesh)`, or for all where
-/// there are no more. Returns how many items one of these stands for.
+/// Calls visit(mesh, i) for `count` of the items of all casters that may reach, of which each has
+/// `items(mesh)`, or for all where there are no more. Returns how many items one of these stands for.
 template <class Items, class Visit>
 double visit_some(const Scene& objects, std::span<const CasterFacts> casters, std::size_t count,
                   const Items& items, const Visit& visit) {
@@ -42,8 +43,9 @@ double visit_some(const Scene& objects, std::span<const CasterFacts> casters, st
   return some > 0 ? static_cast<double>(all) / static_cast<double>(some) : 1.0;
 }
 
-/// A receiver x in the light's frame. What lies at p projects to (a h + c (p - x)) / h with h = x.w - p.w, so it is beside the disk
-/// where one of four linear functions of p is above 0, a h + c (p - x) ∓ r h. Two more are above 0 behind x and behind the light.
+/// A receiver x in the light's frame. What lies at p projects to (a h + c (p - x)) / h with h = x.w - p.w, so
+/// it is beside the disk where one of four linear functions of p is above 0, a h + c (p - x) ∓ r h. Two more
+/// are above 0 behind x and behind the light.
 struct Seer {
   Vec3 x;
   double radius;
@@ -82,8 +84,9 @@ struct FloatPlanes {
   std::array<std::array<float, 4>, 6> planes;
 };
 
-/// 1 for each of `count` edges from `first` that may be a silhouette across the disk: its faces' planes have x on different sides,
-/// and none of six planes has all of it on the wrong one. Homogeneous, so that ends behind x need no case of their own.
+/// 1 for each of `count` edges from `first` that may be a silhouette across the disk: its faces' planes have
+/// x on different sides, and none of six planes has all of it on the wrong one. Homogeneous, so that ends
+/// behind x need no case of their own.
 PENUMBRA_VECTOR_CLONES
 void find_across(const EdgeColumns& edges, std::size_t first, std::size_t count, const FloatPlanes& seer,
                  std::int32_t* across) {

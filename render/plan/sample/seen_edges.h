@@ -11,7 +11,8 @@
 
 namespace penumbra::detail {
 
-/// Numbers of edges column by column, for loops over many of them. Single precision, relative to a point among them.
+/// Numbers of edges column by column, for loops over many of them. Single precision, relative to a point
+/// among them.
 struct EdgeColumns {
   /// Ends: u, v, depth. Planes of faces: normal and offset.
   std::array<std::vector<float>, 3> from, to;
@@ -30,12 +31,12 @@ class EdgeSample {
   EdgeSample(const Scene& objects, const CircularLight& light, std::span<const CasterFacts> casters,
              std::size_t count);
 
-  /// How many edges lie across the light as x sees it and are silhouettes from there: boundary edges, and those with one
-  /// face towards x and one away.
+  /// How many edges lie across the light as x sees it and are silhouettes from there: boundary edges, and
+  /// those with one face towards x and one away.
   struct Crossing {
     double edges = 0.0;
-    /// Edges between two faces of fine casters count by their length over a tenth of the light's radius, at most 1: short
-    /// ones are merged (silhouette-tolerance).
+    /// Edges between two faces of fine casters count by their length over a tenth of the light's radius, at
+    /// most 1: short ones are merged (silhouette-tolerance).
     double merged = 0.0;
     /// The sum of their lengths, light radii, at most two each.
     double length = 0.0;
@@ -44,14 +45,16 @@ class EdgeSample {
   Crossing crossing(const Vec3& x) const;
   /// How many edges each of the sample stands for: fewer than that are not told from none.
   double each_stands_for() const { return each_stands_for_; }
-  /// How many edges are in the band: all but those whose faces both face all of the light, or both none of it. An estimate.
+  /// How many edges are in the band: all but those whose faces both face all of the light, or both none of
+  /// it. An estimate.
   double band() const { return each_stands_for_ * static_cast<double>(band_); }
 
  private:
   /// An edge in the light's frame: u, v, depth.
   struct Seen {
     Vec3 from{0.0}, to{0.0};
-    /// Planes of the faces, normal·p + offset; of a boundary edge two that have every point on different sides.
+    /// Planes of the faces, normal·p + offset; of a boundary edge two that have every point on different
+    /// sides.
     std::array<Vec3, 2> normals{Vec3(0.0), Vec3(0.0)};
     std::array<double, 2> offsets{1.0, -1.0};
     bool is_boundary = true, may_merge = false;
@@ -64,7 +67,8 @@ class EdgeSample {
   void fill_columns();
   void add(const Seen& edge, const Vec3& x, Crossing& out) const;
 
-  /// Edges that come one after another, of one place mostly: most of such groups lie beside the light as a whole.
+  /// Edges that come one after another, of one place mostly: most of such groups lie beside the light as a
+  /// whole.
   static constexpr std::size_t kGroup = 32;
 
   CircularLight light_;
@@ -81,7 +85,8 @@ class EdgeSample {
 class FaceSample {
  public:
   FaceSample(const Scene& objects, std::span<const CasterFacts> casters, std::size_t count);
-  /// An estimate of how many boxes of faces the segment from x along `way` meets; `endless`: the ray. Cost O(count).
+  /// An estimate of how many boxes of faces the segment from x along `way` meets; `endless`: the ray. Cost
+  /// O(count).
   double boxes_on(const Vec3& x, const Vec3& way, bool endless) const;
 
  private:

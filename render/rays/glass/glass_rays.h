@@ -29,8 +29,9 @@ class GlassRays {
   GlassRays(GlassRays&&) noexcept;
   GlassRays& operator=(GlassRays&&) noexcept;
 
-  /// All crossings in front of the origin, nearest first. Through an edge a ray crosses both faces there: that counts once. One through a
-  /// vertex may miss a crossing. Single precision, in a frame around the bodies. By any number of threads at a time.
+  /// All crossings in front of the origin, nearest first. Through an edge a ray crosses both faces there:
+  /// that counts once. One through a vertex may miss a crossing. Single precision, in a frame around the
+  /// bodies. By any number of threads at a time.
   void find_crossings(const Vec3& origin, const Vec3& direction, std::vector<GlassCrossing>& out) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace penumbra::detail {
 
-/// `components` numbers an element, in double, normalized integers as fractions, sparse values put in. Throws SceneError where the
-/// accessor does not exist, has another type, or leaves its buffer.
+/// `components` numbers an element, in double, normalized integers as fractions, sparse values put in. Throws
+/// SceneError where the accessor does not exist, has another type, or leaves its buffer.
 std::vector<double> read_numbers(const GltfFile& file, int accessor, int components, const std::string& what);
 
 std::vector<Vec3> read_vectors(const GltfFile& file, int accessor, const std::string& what);

@@ -1,7 +1,7 @@
 // A glTF file, read and looked through: what it needs that is not understood is refused by name.
 //
-// In: the bytes of a .gltf or .glb. Out: tinygltf's model with its buffers. Images are left out before it is parsed, and values nest 64
-// deep at most, since parsers recurse.
+// In: the bytes of a .gltf or .glb. Out: tinygltf's model with its buffers. Images are left out before it is
+// parsed, and values nest 64 deep at most, since parsers recurse.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ struct GltfFile {
 /// Whether the bytes begin as a .glb does.
 bool begins_like_glb(std::span<const std::byte> bytes);
 
-/// `folder` is where paths of buffers start. Throws SceneError for what is no glTF 2.0, for files that cannot be read, and for required
-/// extensions that are not known: compression by Draco and by meshopt among them.
+/// `folder` is where paths of buffers start. Throws SceneError for what is no glTF 2.0, for files that cannot
+/// be read, and for required extensions that are not known: compression by Draco and by meshopt among them.
 GltfFile read_gltf_file(std::span<const std::byte> bytes, const std::filesystem::path& folder,
                         const std::string& name);
 

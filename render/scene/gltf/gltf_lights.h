@@ -1,10 +1,12 @@
 // Lights and cameras of glTF as a scene's.
 //
-// KHR_lights_punctual knows points, and a scene needs sizes: they are in a light's or its node's `extras`, or options say them.
+// KHR_lights_punctual knows points, and a scene needs sizes: they are in a light's or its node's `extras`, or
+// options say them.
 //
 //   directional  the sun: a distant disk of `extras.angle_degrees`, or of .53 degrees
-//   spot, point  a disk of `extras.radius`, or of 1/50 of the casters' diagonal. A spot shines along its node's -z, its cone is ignored; a
-//                point has no side: its disk faces the middle of the casters
+//   spot, point  a disk of `extras.radius`, or of 1/50 of the casters' diagonal. A spot shines along its
+//                node's -z, its cone is ignored; a point has no side: its disk faces the middle of the
+//                casters
 //   intensity    lux and candela count as W/m² and W/sr: of a disk of radius r it is the radiance π r² times
 //
 // EXT_lights_area has sizes (gltf_area_lights.h).

@@ -20,8 +20,9 @@ struct PlacedNode {
 /// Where a node's -z points to; the world's -z where it is flattened to nothing.
 Vec3 forward(const Transform& world);
 
-/// Those of the default scene, or the first, in its order; of a file without scenes all nodes that are no children. Throws SceneError where a node
-/// is its own ancestor, has two parents, or a matrix that is not finite.
+/// Those of the default scene, or the first, in its order; of a file without scenes all nodes that are no
+/// children. Throws SceneError where a node is its own ancestor, has two parents, or a matrix that is not
+/// finite.
 std::vector<PlacedNode> place_nodes(const GltfFile& file, GltfNotes& notes);
 
 }  // namespace penumbra::detail

@@ -1,7 +1,9 @@
-// A scene of a glTF file: nodes with meshes become objects, KHR_lights_punctual lights, the first camera the camera.
+// A scene of a glTF file: nodes with meshes become objects, KHR_lights_punctual lights, the first camera the
+// camera.
 //
-// Objects of a scene hold their meshes in world space: instances in the same place share one, others have each their own. Nothing is
-// taken of materials but base colors, and nothing of animations, skins and morph targets; warnings name what is left out.
+// Objects of a scene hold their meshes in world space: instances in the same place share one, others have
+// each their own. Nothing is taken of materials but base colors, and nothing of animations, skins and morph
+// targets; warnings name what is left out.
 #pragma once
 
 #include <cstddef>

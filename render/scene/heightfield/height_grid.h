@@ -21,9 +21,10 @@ struct HeightGrid {
 /// 11,585² posts: more triangles than twice this would not fit.
 inline constexpr std::size_t kMostPosts = std::size_t{1} << 27;
 
-/// A raster that GDAL reads as GeoTIFF, ESRI ASCII grid (.asc) or ESRI .bil: posts are the centers of its pixels, heights its one band. Or a NumPy array
-/// (.npy, rows × columns): posts are 1 apart, the first row is the northern one. Throws MeshError for other files, for degrees in place of lengths, and for
-/// fewer than 2 × 2 posts; SystemError where GDAL is needed and not there.
+/// A raster that GDAL reads as GeoTIFF, ESRI ASCII grid (.asc) or ESRI .bil: posts are the centers of its
+/// pixels, heights its one band. Or a NumPy array (.npy, rows × columns): posts are 1 apart, the first row is
+/// the northern one. Throws MeshError for other files, for degrees in place of lengths, and for fewer than 2
+/// × 2 posts; SystemError where GDAL is needed and not there.
 HeightGrid read_heights(const std::filesystem::path& path);
 
 }  // namespace penumbra::detail

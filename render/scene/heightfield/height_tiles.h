@@ -26,10 +26,12 @@ struct TileOptions {
   bool smooth = false;
 };
 
-/// In the mesh's coordinates x is east, y up and z south, so that a scene without a transform has north at -z. Each square between four posts is two
-/// triangles that share the diagonal from its south-western to its north-eastern post (where the first row is the northern one). A triangle at a gap is left
-/// out. Tiles that meet have the same posts on their border, bit for bit; tiles without triangles are left out. Throws MeshError where a post lies beyond
-/// kMostNumber. O(posts), on all cores: 32 million triangles take half a minute on two cores.
+/// In the mesh's coordinates x is east, y up and z south, so that a scene without a transform has north at
+/// -z. Each square between four posts is two triangles that share the diagonal from its south-western to its
+/// north-eastern post (where the first row is the northern one). A triangle at a gap is left out. Tiles that
+/// meet have the same posts on their border, bit for bit; tiles without triangles are left out. Throws
+/// MeshError where a post lies beyond kMostNumber. O(posts), on all cores: 32 million triangles take half a
+/// minute on two cores.
 std::vector<HeightTile> make_tiles(const HeightGrid& grid, const Transform& transform,
                                    const TileOptions& options);
 

@@ -6,8 +6,8 @@ namespace penumbra::detail {
 namespace {
 
 // Accuracy. Held by the tests RowHeights and RegularPatterns.
-/// By how much a wave changes the slope of f. With less, regular patterns keep step with rows over more of them;
-/// with more, the few high strips err more than the others.
+/// By how much a wave changes the slope of f. With less, regular patterns keep step with rows over more of
+/// them; with more, the few high strips err more than the others.
 constexpr double kIrregularity = 0.1;
 /// Periods of the two waves of each family, rows.
 constexpr std::array<std::array<double, 2>, 2> kPeriods{{{7.31, 18.07}, {6.59, 16.73}}};

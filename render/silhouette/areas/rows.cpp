@@ -61,10 +61,10 @@ struct KeysOfRows {
   std::int32_t* keys;
 };
 
-/// A segment's keys, eight at a time: few segments need more. Where they belong is read and written in the same pieces
-/// of four numbers; the processor waits where it reads again what was written in others. What is written for rows that
-/// the segment does not cross is overwritten by the next key of that row: this needs no branch, which nothing could
-/// predict.
+/// A segment's keys, eight at a time: few segments need more. Where they belong is read and written in the
+/// same pieces of four numbers; the processor waits where it reads again what was written in others. What is
+/// written for rows that the segment does not cross is overwritten by the next key of that row: this needs no
+/// branch, which nothing could predict.
 template <int kLanes>
 PENUMBRA_INLINE void write_keys_of(const CrossingRows& r, int i, const KeysOfRows& out) {
   using Lanes = IntLanes<kLanes>;
@@ -118,8 +118,8 @@ DiskPart turn_part(const Turn& turn, const DiskPart& part) {
 
 }  // namespace
 
-/// Ends of rows; those of the whole disk stay from receiver to receiver. Where the rim is, is its mean over the
-/// strip, so that lengths times heights add up to the area of the disk.
+/// Ends of rows; those of the whole disk stay from receiver to receiver. Where the rim is, is its mean over
+/// the strip, so that lengths times heights add up to the area of the disk.
 void Rows::place(const DiskPart& turned, int rows, RowMemory& m) {
   const bool same = rows == heights_.rows() && !lines_.empty();
   if (same && whole_disk_ && !turned.is_cut()) return;
@@ -163,8 +163,8 @@ void Rows::find_rows(const ClippedSegments& clipped, RowMemory& m) const {
   rows_above(shares + count, count, heights_.count(), m.row_b.data());
 }
 
-/// The keys of the rows first to last, in any order, and how many. A segment crosses rows at height y with low < y ≤
-/// high.
+/// The keys of the rows first to last, in any order, and how many. A segment crosses rows at height y with
+/// low < y ≤ high.
 void Rows::cross(const ClippedSegments& clipped, int first, int last, RowMemory& m) const {
   const std::size_t count =
       find_crossing(m.row_a.data(), m.row_b.data(), clipped.segments.size(), first, last, m.crossing.data());

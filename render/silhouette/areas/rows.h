@@ -1,8 +1,8 @@
 // Silhouette method, step area: families of rows, for many segments.
 //
-// In: segments inside D, at which the depth complexity L changes, and a direction. Out: sums over scanlines in that
-// direction at the heights of row_heights.h. L is relative to D's lowest point whatever the direction is, so the
-// sums of two families can be compared with each other and with the integral of L.
+// In: segments inside D, at which the depth complexity L changes, and a direction. Out: sums over scanlines
+// in that direction at the heights of row_heights.h. L is relative to D's lowest point whatever the direction
+// is, so the sums of two families can be compared with each other and with the integral of L.
 #pragma once
 
 #include <array>
@@ -53,8 +53,8 @@ class Rows {
   /// `family`: of RowHeights.
   Rows(const Turn& turn, int family) : turn_(turn), family_(family), heights_(1, family) {}
 
-  /// `rows`: how many; where they are is kept for the next receiver. Depth complexities below `least` count as that.
-  /// Cost for s segments with c crossings, at most m in a row: s + c + rows · m log² m.
+  /// `rows`: how many; where they are is kept for the next receiver. Depth complexities below `least` count
+  /// as that. Cost for s segments with c crossings, at most m in a row: s + c + rows · m log² m.
   LineSums sweep(const ClippedSegments& clipped, const DiskPart& part, int rows, RowMemory& memory,
                  double least = -LineSums::kNone);
   /// The same with rows sorted one by one and code for any processor: the same bits, for tests.

@@ -1,13 +1,14 @@
 // Silhouette method, step area: horizontal lines across the disk, sixteen of them swept together.
 //
-// In: for each line its ends, the depth complexity L at its left end, and the crossings at which L changes. Out:
-// sums over the intervals between crossings, weighted by the height that each line stands for: the moments of L,
-// the lowest L and the area at it. Slabs (slabs.h) and rows (rows.h) differ in where they place lines.
+// In: for each line its ends, the depth complexity L at its left end, and the crossings at which L changes.
+// Out: sums over the intervals between crossings, weighted by the height that each line stands for: the
+// moments of L, the lowest L and the area at it. Slabs (slabs.h) and rows (rows.h) differ in where they place
+// lines.
 //
 // Lines are lanes. Their crossings are sorted and swept without branches, as many lines at a time as the
-// processor has lanes (support/int_lanes.h). A crossing is one number, its position with the change of L in the
-// last three bits, so that sorting moves both. Positions are multiples of 2^-26 light radii: that is the error
-// of the length of an interval.
+// processor has lanes (support/int_lanes.h). A crossing is one number, its position with the change of L in
+// the last three bits, so that sorting moves both. Positions are multiples of 2^-26 light radii: that is the
+// error of the length of an interval.
 #pragma once
 
 #include <algorithm>

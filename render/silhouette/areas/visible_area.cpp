@@ -15,11 +15,11 @@ constexpr double kPi = std::numbers::pi;
 // Accuracy. Held by the tests VisibleArea and RegularPatterns, and as a whole by SilhouetteProperty.
 /// The least room beside a chain for a ray. Light radii.
 constexpr double kLeastRoom = 1e-3;
-/// A lowest depth complexity of a smaller share of D counts as the next one: it may be a rounding, at which no ray
-/// can aim.
+/// A lowest depth complexity of a smaller share of D counts as the next one: it may be a rounding, at which
+/// no ray can aim.
 constexpr double kLeastShare = 1e-7;
-/// The most that the areas of two families may differ, over π: some three times what they do in foliage. Their mean is
-/// off by half as much where one of them is.
+/// The most that the areas of two families may differ, over π: some three times what they do in foliage.
+/// Their mean is off by half as much where one of them is.
 constexpr double kMostApart = 0.004;
 /// The most that a family may be off in the integral of L, over π, in steps of L or its deviations.
 constexpr double kMostOff = 0.012;
@@ -27,8 +27,8 @@ constexpr double kMostOff = 0.012;
 constexpr double kMostOffAlone = 0.005;
 /// The same where rows meet one depth complexity only: nothing corrects their area then.
 constexpr double kMostMissed = 1e-4;
-/// One family is enough where it has so many rows for each segment that a line across the rows meets: then no regular
-/// pattern lies between them.
+/// One family is enough where it has so many rows for each segment that a line across the rows meets: then no
+/// regular pattern lies between them.
 constexpr double kRowsToSegments = 2.5;
 /// A smaller variance of L is that of one depth complexity.
 constexpr double kLeastVariance = 1e-9;
@@ -37,8 +37,8 @@ constexpr double kUsualCorrection = 0.003;
 /// The most that a few rows may differ from the integral, over |D|.
 constexpr double kFewApart = 0.004;
 
-/// How far rows of the second family are turned against the first, radians. Frames of lights are turned themselves
-/// (unit_light.h): against their axes rows have slopes of .618 and -4.4.
+/// How far rows of the second family are turned against the first, radians. Frames of lights are turned
+/// themselves (unit_light.h): against their axes rows have slopes of .618 and -4.4.
 constexpr double kTurn = 1.24;
 
 // Speed. Seen in the benchmark `silhouette`.
@@ -69,7 +69,8 @@ Kind kind_of(const ClippedSegments& clipped, const DiskPart& part) {
   return {(odd & 1) != 0 ? 1.0 : 2.0, extent * (part.top() - part.bottom()) / part.area()};
 }
 
-/// Sums in which the lowest depth complexity is no sliver. `sweep`: makes them, given what lower ones count as.
+/// Sums in which the lowest depth complexity is no sliver. `sweep`: makes them, given what lower ones count
+/// as.
 template <class Sweep>
 LineSums sweep_above_slivers(double sliver, const Sweep& sweep) {
   LineSums sums = sweep(-LineSums::kNone);
@@ -110,8 +111,8 @@ Estimate estimate(const LineSums& sums, const ClippedSegments& clipped, const Di
   return out;
 }
 
-/// Whether the rows of a family represent what there is, by the integral of L. `most`: over π, in steps of L or its
-/// deviations.
+/// Whether the rows of a family represent what there is, by the integral of L. `most`: over π, in steps of L
+/// or its deviations.
 bool agrees_with_integral(const Estimate& e, double step, double most) {
   const double allowed =
       e.variance > kLeastVariance ? most * std::max(step, std::sqrt(e.variance)) : kMostMissed * step;
@@ -247,8 +248,8 @@ bool VisibleArea::by_few_rows(const ClippedSegments& clipped, const DiskPart& pa
   for (int i = 0; i < 2; ++i) {
     const LineSums sums = sweep_above_slivers(
         sliver, [&](double least) { return few_[i].sweep(clipped, part, kFewRows, memory_, least); });
-    // Two depth complexities, but for slivers: (L - low)(L - high) is 0 at both, and two steps squared or more
-    // elsewhere.
+    // Two depth complexities, but for slivers: (L - low)(L - high) is 0 at both, and two steps squared or
+    // more elsewhere.
     const double low = sums.lowest, high = low + step;
     const double mean = sums.first / sums.area;
     const double elsewhere = (sums.second - (low + high) * sums.first) / sums.area + low * high;

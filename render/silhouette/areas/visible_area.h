@@ -10,20 +10,20 @@
 //
 // Slabs, for few segments: an exact sweep (slabs.h).
 //
-// Rows, for many segments: two families of scanlines in two directions, at irregular heights (rows.h), give an area
-// A_k for every depth complexity k, good to their spacing. The exact integral of L corrects the area of the lowest
-// as a control variate. With p its share,
+// Rows, for many segments: two families of scanlines in two directions, at irregular heights (rows.h), give
+// an area A_k for every depth complexity k, good to their spacing. The exact integral of L corrects the area
+// of the lowest as a control variate. With p its share,
 //   area = |D| p + c (∫ L - |D| mean L),   c = cov(lowest?, L) / var L   under the areas A_k.
-// This is exact where only two depth complexities occur, so that rows only have to measure the overlap. The mean of
-// both families counts, if they agree: on the lowest depth complexity, on its area, and each with the integral of
-// L. Where they do not, something regular keeps step with a family, or is so thin that rows miss it. Then slabs are
-// swept, as many as twice the rows would cost, or else twice as many rows, and so on up to sixteen times. What is
-// left after that is said in the result.
+// This is exact where only two depth complexities occur, so that rows only have to measure the overlap. The
+// mean of both families counts, if they agree: on the lowest depth complexity, on its area, and each with the
+// integral of L. Where they do not, something regular keeps step with a family, or is so thin that rows miss
+// it. Then slabs are swept, as many as twice the rows would cost, or else twice as many rows, and so on up to
+// sixteen times. What is left after that is said in the result.
 //
 // Slivers: silhouettes of merged faces (merge/merged_edges.h) turn back here and there, in slivers that the
-// true silhouettes do not have, at depth complexities that may lie below the true lowest. These are left
-// out of account. A chain may turn back by as much (`is_one_chain`). Where there are several chains a few
-// rows of both families tell whether there are two depth complexities but for slivers, and then the integral gives
+// true silhouettes do not have, at depth complexities that may lie below the true lowest. These are left out
+// of account. A chain may turn back by as much (`is_one_chain`). Where there are several chains a few rows of
+// both families tell whether there are two depth complexities but for slivers, and then the integral gives
 // the area.
 //
 // Aims: rays go to two points of the lowest depth complexity, far from the segments. The second serves
@@ -59,9 +59,9 @@ class VisibleArea {
  public:
   VisibleArea();
 
-  /// Replaces `out`. `rows`: how many scanlines of each direction where there are many segments. `sliver`: the share
-  /// of D's area up to which a lowest depth complexity counts as the next one; 0 for true silhouettes. Cost for s
-  /// segments: s for a chain, else that of `Slabs` and `Rows`.
+  /// Replaces `out`. `rows`: how many scanlines of each direction where there are many segments. `sliver`:
+  /// the share of D's area up to which a lowest depth complexity counts as the next one; 0 for true
+  /// silhouettes. Cost for s segments: s for a chain, else that of `Slabs` and `Rows`.
   void compute(const ClippedSegments& clipped, const DiskPart& part, int rows, double sliver,
                VisibleAreaResult& out);
 
@@ -83,8 +83,8 @@ class VisibleArea {
 
   Slabs slabs_;
   RowMemory memory_;
-  /// One family where it is enough; both with three quarters of the rows, with two, four and sixteen times as many;
-  /// both with few rows. Each keeps its heights.
+  /// One family where it is enough; both with three quarters of the rows, with two, four and sixteen times as
+  /// many; both with few rows. Each keeps its heights.
   Rows alone_;
   std::array<Families, kRowLevels> families_;
   Families few_;

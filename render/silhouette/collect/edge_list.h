@@ -10,10 +10,11 @@
 //  - `narrow` asks what shaft.h asks, for fewer receivers. An edge is dismissed where it lies
 //    2^-19 (M + s)(1 + |slope|) beyond a side of the shaft, or where both faces are on the same side for all
 //    receivers.
-//  - `test_edges` asks for one receiver x. With w = x.z - p.z and g = x.z/w, projection makes errors of at most
-//    2^-24 (s g)(2 + s/w) times a small number, plus 2^-24 M for x itself. An edge is dismissed where it stays
-//    2^-19 (M + s g (1 + s/w)) outside of the disk, w the smaller one of its ends. It is also dismissed where the
-//    values of both planes are beyond their tolerances and 2^-20 of the terms of the sums, and the jump is 0.
+//  - `test_edges` asks for one receiver x. With w = x.z - p.z and g = x.z/w, projection makes errors of at
+//    most 2^-24 (s g)(2 + s/w) times a small number, plus 2^-24 M for x itself. An edge is dismissed where it
+//    stays 2^-19 (M + s g (1 + s/w)) outside of the disk, w the smaller one of its ends. It is also dismissed
+//    where the values of both planes are beyond their tolerances and 2^-20 of the terms of the sums, and the
+//    jump is 0.
 #pragma once
 
 #include <array>

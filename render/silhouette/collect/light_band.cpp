@@ -17,7 +17,8 @@ class FrontSide {
  public:
   explicit FrontSide(double depth) : depth_(depth) {}
   bool operator()(const Vec3& p) const { return p.z > depth_; }
-  /// Where the segment between a point in front and one behind meets the plane; the same bits for both directions.
+  /// Where the segment between a point in front and one behind meets the plane; the same bits for both
+  /// directions.
   Vec3 cut(const Vec3& a, const Vec3& b) const {
     const Vec3& front = (*this)(a) ? a : b;
     const Vec3& back = (*this)(a) ? b : a;

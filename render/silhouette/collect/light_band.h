@@ -4,8 +4,8 @@
 // light's frame, from the hierarchy that serves every light (edges/scene_edges.h); or the merged edges of a
 // level of detail (merge/merged_edges.h).
 //
-// What lies behind the light's plane does not cast. So edges end there. Where a face crosses that plane the cut is one
-// more edge, with a face on one side only.
+// What lies behind the light's plane does not cast. So edges end there. Where a face crosses that plane the
+// cut is one more edge, with a face on one side only.
 #pragma once
 
 #include <span>

@@ -31,8 +31,8 @@ PENUMBRA_INLINE std::uint32_t remaining(const MergedLanes& e, const Ints& beside
   return bits_of(~(beside & left & right));
 }
 
-/// What eight sides may have mistaken from a box of receivers, and on which side of them the receivers are: of
-/// all their faces, and of their mean planes; 0 where that is not certain.
+/// What eight sides may have mistaken from a box of receivers, and on which side of them the receivers are:
+/// of all their faces, and of their mean planes; 0 where that is not certain.
 PENUMBRA_INLINE void look_at(const MergedLanes::Side& side, const FloatShaft& receivers, Floats& area,
                              Ints& of_all, Ints& of_mean) {
   Floats y[3], value{}, reach{}, length2{};
@@ -55,8 +55,8 @@ PENUMBRA_INLINE void look_at(const MergedLanes::Side& side, const FloatShaft& re
   of_mean = (least > 0.0f) & sign;
   of_all = (least > 1.0001f * side.tilt * (length + receivers.size) + side.spread) & sign;
 
-  // ½ (√(S² + G²) - G), for the largest S and the least G of the box. The root of `turned` is off by 2^-10 of it and
-  // 2^-10 of the length of y at most.
+  // ½ (√(S² + G²) - G), for the largest S and the least G of the box. The root of `turned` is off by 2^-10 of
+  // it and 2^-10 of the length of y at most.
   const Floats s = 1.001f * turned + side.trace * (0.001f * length + receivers.size) + side.shifted;
   const Floats g = side.area * (least > 0.0f ? least : Floats{});
   Floats root;

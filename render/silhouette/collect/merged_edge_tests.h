@@ -60,15 +60,15 @@ struct FloatEye {
 
 /// What a receiver may have mistaken, and where.
 struct Mistaken {
-  /// A bound on the area of the disk at which merged edges tell a wrong number of faces. Infinite, or not a number,
-  /// where something that may be mistaken is not wholly nearer to the light than all receivers.
+  /// A bound on the area of the disk at which merged edges tell a wrong number of faces. Infinite, or not a
+  /// number, where something that may be mistaken is not wholly nearer to the light than all receivers.
   float area = 0.0f;
   /// What an edge stands for that is a silhouette is seen on the disk within that distance of it.
   float beside = 0.0f;
 };
 
-/// Adds those of eight edges, for each of the receivers of a shaft. Compiled for several instruction sets with the
-/// same result.
+/// Adds those of eight edges, for each of the receivers of a shaft. Compiled for several instruction sets
+/// with the same result.
 void add_mistaken(const MergedLanes& edges, const FloatShaft& receivers, Mistaken& out);
 
 /// Bit i is set where edge i may stand for a silhouette across the disk. Compiled for several instruction

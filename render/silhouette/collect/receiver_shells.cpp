@@ -11,8 +11,8 @@ namespace penumbra::detail {
 namespace {
 
 // Speed. Seen in the benchmark `silhouette` with a large floor.
-/// The innermost shell reaches to so many times the radius of the casters, and each one that many times farther than the
-/// one before.
+/// The innermost shell reaches to so many times the radius of the casters, and each one that many times
+/// farther than the one before.
 constexpr double kFactor = 64.0;
 /// The last shell has all that lies farther out.
 constexpr std::size_t kMostShells = 12;

@@ -1,8 +1,8 @@
 // Silhouette method, step collect: receivers by their distance from what casts.
 //
-// In: groups of receivers, and the box of the casters. Out: shells of groups around the casters. Each shell is served in a
-// frame of its own (edges/unit_light.h), so that a floor that reaches far costs receivers near the casters no digits, and
-// floats dismiss as many edges for them as they would without it.
+// In: groups of receivers, and the box of the casters. Out: shells of groups around the casters. Each shell
+// is served in a frame of its own (edges/unit_light.h), so that a floor that reaches far costs receivers near
+// the casters no digits, and floats dismiss as many edges for them as they would without it.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct ReceiverShell {
   Bounds asked_about;
 };
 
-/// The innermost first; shells without receivers are left out, and so are groups without. Without casters there is one
-/// shell. Cost O(groups).
+/// The innermost first; shells without receivers are left out, and so are groups without. Without casters
+/// there is one shell. Cost O(groups).
 std::vector<ReceiverShell> receiver_shells(const BoxedGroups& groups, const Bounds& casters);
 
 /// The receivers of a call, and the casters that may hide something from them. Refers to the groups.

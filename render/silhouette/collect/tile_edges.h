@@ -1,8 +1,9 @@
-// Silhouette method, step collect, for other methods: the edges of a band that each receiver of a tile may have to look at.
+// Silhouette method, step collect, for other methods: the edges of a band that each receiver of a tile may
+// have to look at.
 //
-// In: a band, up to 64 receivers that lie close together. Out: a list of edges for each receiver, short enough to go over.
-// Left out is what lies beside the light for the receiver and those around it, what is below all their horizons, and edges
-// whose jump is 0 for all of them (shaft.h).
+// In: a band, up to 64 receivers that lie close together. Out: a list of edges for each receiver, short
+// enough to go over. Left out is what lies beside the light for the receiver and those around it, what is
+// below all their horizons, and edges whose jump is 0 for all of them (shaft.h).
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,8 @@ class TileEdges {
   /// Refers to the band. Cost O(E), on all cores.
   explicit TileEdges(const Band& band);
 
-  /// Calls `visit(receiver, list)` for each receiver; they change their order. Returns false, with nothing called, where no
-  /// caster's box reaches between the tile and the light.
+  /// Calls `visit(receiver, list)` for each receiver; they change their order. Returns false, with nothing
+  /// called, where no caster's box reaches between the tile and the light.
   template <class Visit>
   bool for_each(std::span<TileReceiver> tile, TileEdgesMemory& memory, const Visit& visit) const {
     if (tile.empty() || !collect(tile, memory)) return false;
@@ -39,7 +40,8 @@ class TileEdges {
   std::size_t bytes() const { return tree_.bytes() + blocks_.bytes(); }
 
  private:
-  // Speed. Shorter lists are not narrowed for parts of a tile, and longer ones for so many receivers at a time.
+  // Speed. Shorter lists are not narrowed for parts of a tile, and longer ones for so many receivers at a
+  // time.
   static constexpr std::size_t kShortList = 24, kFewReceivers = 16;
 
   bool collect(std::span<const TileReceiver> tile, TileEdgesMemory& memory) const;
@@ -62,8 +64,8 @@ class TileEdges {
   const EdgeBlocks blocks_;
 };
 
-/// The edges of a list that may be silhouettes near the disk for a receiver: calls `visit(edge)`. Floats dismiss most edges of
-/// a long list.
+/// The edges of a list that may be silhouettes near the disk for a receiver: calls `visit(edge)`. Floats
+/// dismiss most edges of a long list.
 template <class Visit>
 void for_each_near(const EdgeList& list, const Vec3& x, TestedEdges& memory, const Visit& visit) {
   constexpr std::size_t kFewEdges = 6;  // speed: so few are not tested before

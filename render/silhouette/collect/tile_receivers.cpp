@@ -8,9 +8,10 @@
 namespace penumbra::detail {
 namespace {
 
-/// Accuracy. A horizon that cuts the disk is raised by this much, light radii. What lies in a receiver's tangent plane, such
-/// as the edges of a face that it meets at a right angle, is then below it for certain, and not on either side by rounding.
-/// Visibility is in float, which has fewer digits. Held by the test ExactReceivers.
+/// Accuracy. A horizon that cuts the disk is raised by this much, light radii. What lies in a receiver's
+/// tangent plane, such as the edges of a face that it meets at a right angle, is then below it for certain,
+/// and not on either side by rounding. Visibility is in float, which has fewer digits. Held by the test
+/// ExactReceivers.
 constexpr double kRaised = 0x1p-30;
 
 }  // namespace

@@ -1,7 +1,8 @@
 // Silhouette method, step collect: the receivers of a group in the light's frame, and those that
 // need no look at edges.
 //
-// In: receivers. Out: their points in the light's frame, with the chord that each one's horizon cuts off the disk.
+// In: receivers. Out: their points in the light's frame, with the chord that each one's horizon cuts off the
+// disk.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +26,13 @@ struct DecidedReceivers {
 /// Refers to its arguments.
 class ReceiverSource {
  public:
-  /// What is decided here is written to `out`, each receiver by itself. `horizon`: whether tangent planes hide
-  /// what lies below them.
+  /// What is decided here is written to `out`, each receiver by itself. `horizon`: whether tangent planes
+  /// hide what lies below them.
   ReceiverSource(const Receivers& receivers, const ReceiverGroups& groups, const UnitLight& light,
                  bool horizon, const DecidedReceivers& out);
 
-  /// Into `receivers` those of a group that see some of the light's front above their horizon; it is replaced.
-  /// Returns how many receivers are behind the light, hence in umbra.
+  /// Into `receivers` those of a group that see some of the light's front above their horizon; it is
+  /// replaced. Returns how many receivers are behind the light, hence in umbra.
   std::size_t collect(std::size_t group, std::vector<TileReceiver>& receivers) const;
   /// Writes that all receivers of a group are wholly lit.
   void light_up(std::size_t group) const;

@@ -17,8 +17,8 @@ namespace {
 /// Held by the test UncertainEdges.CertificatesHoldToTheLast.
 constexpr double kStraight = 1e-3;
 
-/// 1 where only fronts of a side's faces are seen from a box of receivers, -1 where only backs, 0 where that is
-/// not certain. `plane`: the side's mean plane.
+/// 1 where only fronts of a side's faces are seen from a box of receivers, -1 where only backs, 0 where that
+/// is not certain. `plane`: the side's mean plane.
 PENUMBRA_INLINE int look_from(const Vec3& middle, const Vec3& half, const FacePlane& plane,
                               const MergedSides::Side& side) {
   if (plane.tolerance < 0.0) return 0;

@@ -1,12 +1,13 @@
 // Silhouette method, step collect: the certificate for merged edges.
 //
-// In: a band of merged edges (merge/merged_edges.h), a tile's receivers, and a spot of the disk: all of it, or
-// one point. Out: whether some edge may stand for a silhouette across the spot although it is none itself. For
-// a receiver it certainly does not where
+// In: a band of merged edges (merge/merged_edges.h), a tile's receivers, and a spot of the disk: all of it,
+// or one point. Out: whether some edge may stand for a silhouette across the spot although it is none itself.
+// For a receiver it certainly does not where
 //  - what it stands for lies beside the spot, or below the receiver's tangent plane, or
 //  - the faces of both sides look the same way.
-// Where no edge does for all of the disk, nothing crosses the disk. Where no edge does for a point, the number
-// of faces before the point is what merged edges make of it, so that one ray to it tells the numbers elsewhere.
+// Where no edge does for all of the disk, nothing crosses the disk. Where no edge does for a point, the
+// number of faces before the point is what merged edges make of it, so that one ray to it tells the numbers
+// elsewhere.
 //
 // Few edges leave that open for a tile, and fewer for a part of it. They are looked for only when they are
 // first asked for.
@@ -27,8 +28,8 @@ class UncertainEdges {
  public:
   /// Begins a tile, given by its list of blocks of the band and its shaft. Refers to all three.
   void begin_tile(const Band& band, const std::vector<NodeMask>& list, const Shaft& shaft);
-  /// Begins a part of the tile: some of its receivers that lie close together. Refers to them. Without any, edges are not
-  /// looked for part by part: for few questions about the tile.
+  /// Begins a part of the tile: some of its receivers that lie close together. Refers to them. Without any,
+  /// edges are not looked for part by part: for few questions about the tile.
   void begin_part(std::span<const TileReceiver> part);
   /// Whether no edge of the list can stand for a silhouette across the spot, by `slack`
   /// (certificate_slack). `receiver` is one of the part's, or without a part of the tile's.
@@ -55,8 +56,8 @@ class UncertainEdges {
   std::vector<EdgesOfBlock> of_tile_, of_part_;
 };
 
-/// Whether merged edge i certainly stands for no silhouette across the spot. An edge that stands for nothing but
-/// itself does so for all of the disk only: for a point it is known what it does.
+/// Whether merged edge i certainly stands for no silhouette across the spot. An edge that stands for nothing
+/// but itself does so for all of the disk only: for a point it is known what it does.
 bool is_certainly_no_silhouette(const Band& band, std::size_t i, const TileReceiver& receiver,
                                 const DiskSpot& spot, double slack);
 

@@ -1,9 +1,9 @@
 // Silhouette method, step edges: an edge of a caster, with the planes of its faces.
 //
 // An edge a → b, seen from x, is a line across the disk. The number of faces that hide a point of the disk
-// jumps at that line: by the faces on the edge's left minus the faces on its right (`jump_at`). On which
-// side a face lies is the sign of its plane's value at x; a face in whose plane x lies, as far as double can
-// tell, hides nothing and counts on neither side. This holds for meshes that are closed, open, not manifold or
+// jumps at that line: by the faces on the edge's left minus the faces on its right (`jump_at`). On which side
+// a face lies is the sign of its plane's value at x; a face in whose plane x lies, as far as double can tell,
+// hides nothing and counts on neither side. This holds for meshes that are closed, open, not manifold or
 // wound inconsistently. An edge that is no silhouette from x has a jump of 0.
 #pragma once
 
@@ -54,16 +54,17 @@ struct Rounding {
   double extent = 0.0;
 };
 
-/// Accuracy. The tolerance of a plane that is known as well as coordinates are, over the largest coordinate. Faces have
-/// larger ones.
+/// Accuracy. The tolerance of a plane that is known as well as coordinates are, over the largest coordinate.
+/// Faces have larger ones.
 inline constexpr double kPlaneGrain = 0x1p-46;
 
-/// The side of a face on which x lies: 1 where the face is seen counter-clockwise, -1, or 0 where its plane contains x
-/// as far as double can tell. `a`: a corner of the face.
+/// The side of a face on which x lies: 1 where the face is seen counter-clockwise, -1, or 0 where its plane
+/// contains x as far as double can tell. `a`: a corner of the face.
 ///
-/// The plane's tolerance holds for all points up to 4 M away. Of a point at distance d from the corner, n·(x - a) is
-/// off by d/(4 M) of it, and by a rounding of coordinates. That is not so for the mean plane of merged faces, which need
-/// not hold the corner: its tolerance is kPlaneGrain M or less. Where that is 0, every point lies on some side of it.
+/// The plane's tolerance holds for all points up to 4 M away. Of a point at distance d from the corner, n·(x
+/// - a) is off by d/(4 M) of it, and by a rounding of coordinates. That is not so for the mean plane of
+/// merged faces, which need not hold the corner: its tolerance is kPlaneGrain M or less. Where that is 0,
+/// every point lies on some side of it.
 inline int side_of(const FacePlane& plane, const Vec3& a, const Vec3& x, double extent) {
   double value = plane.value(x), tolerance = plane.tolerance;
   if (tolerance == 0.0) return value > 0.0 ? 1 : -1;

@@ -62,8 +62,8 @@ struct FloatPlane {
   float offset;
 };
 
-/// True for blocks of which all planes have one sign for all receivers in a box. The box is one of homogeneous points
-/// (p, weight): weight 1 for points, 0 for directions.
+/// True for blocks of which all planes have one sign for all receivers in a box. The box is one of
+/// homogeneous points (p, weight): weight 1 for points, 0 for directions.
 PENUMBRA_INLINE Ints are_one_sided(const Children& c, const FloatBox& receivers, float weight = 1.0f) {
   Floats value = weight * c.value, reach = weight * c.value_half;
   for (int k = 0; k < 3; ++k) {
@@ -102,8 +102,8 @@ PENUMBRA_INLINE Ints are_under(const Children& c, const FloatBox& receivers, con
   return highest < lowest;
 }
 
-/// A test of blocks for `BoundsTree`: drops those whose planes have one sign for all receivers in a box, or for all points
-/// of a light (`weight` as in are_one_sided).
+/// A test of blocks for `BoundsTree`: drops those whose planes have one sign for all receivers in a box, or
+/// for all points of a light (`weight` as in are_one_sided).
 class SidesTest {
  public:
   explicit SidesTest(const FloatBox& receivers, float weight = 1.0f)

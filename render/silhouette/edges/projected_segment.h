@@ -5,15 +5,17 @@
 // with its jump, and whether it may meet the disk. This is the definition for one edge; lists of edges do the
 // same in vectors (areas/projected_edges.h).
 //
-// What lies beyond x hides nothing from x. So an edge is cut just below the height of x: at an end p where x.z - p.z is
-// 2^-23 of the horizontal distance between p and x. What is cut off projects 2^23 x.z away or farther, beyond any
-// distance that matters, however near to x the edge passes. A vertex is cut off or kept for all its edges alike.
+// What lies beyond x hides nothing from x. So an edge is cut just below the height of x: at an end p where
+// x.z - p.z is 2^-23 of the horizontal distance between p and x. What is cut off projects 2^23 x.z away or
+// farther, beyond any distance that matters, however near to x the edge passes. A vertex is cut off or kept
+// for all its edges alike.
 //
-// An edge is near where it comes within 1 + slack of the disk's center and its jump is not 0. `slack` covers rounding.
-// Let M be the largest coordinate, u = 2^-53, w = x.z - p.z. Coordinates are off by at most u M, which projection
-// multiplies by x.z / w. The point of the segment that is nearest to the disk is computed from ends that are at most
-// 2^24 M away, so it is off by less than 2^-53 2^24 M times a small number. The slack 1e-6 + 2^-26 M bounds both, where
-// the end is 2^-24 M or more away from x; an edge that ends nearer to x, with a jump, is near whatever it projects to.
+// An edge is near where it comes within 1 + slack of the disk's center and its jump is not 0. `slack` covers
+// rounding. Let M be the largest coordinate, u = 2^-53, w = x.z - p.z. Coordinates are off by at most u M,
+// which projection multiplies by x.z / w. The point of the segment that is nearest to the disk is computed
+// from ends that are at most 2^24 M away, so it is off by less than 2^-53 2^24 M times a small number. The
+// slack 1e-6 + 2^-26 M bounds both, where the end is 2^-24 M or more away from x; an edge that ends nearer to
+// x, with a jump, is near whatever it projects to.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +28,8 @@
 
 namespace penumbra::detail {
 
-/// Accuracy. The least x.z - p.z of what is projected, over the horizontal distance between p and x. Held by the tests
-/// SilhouetteProperty.
+/// Accuracy. The least x.z - p.z of what is projected, over the horizontal distance between p and x. Held by
+/// the tests SilhouetteProperty.
 inline constexpr double kLeastBelow = 0x1p-23;
 /// Accuracy. Nearer ends make an edge near, over the largest coordinate.
 inline constexpr double kTooClose = 0x1p-24;
@@ -63,8 +65,8 @@ PENUMBRA_INLINE double least_below(double dx, double dy) {
   return kLeastBelow * (std::abs(dx) + std::abs(dy));
 }
 
-/// The point of an edge p → q just below the height of x, where p lies too high; all relative to x, and w the depths below
-/// x. Nothing where q lies too high as well, or the edge passes through x.
+/// The point of an edge p → q just below the height of x, where p lies too high; all relative to x, and w the
+/// depths below x. Nothing where q lies too high as well, or the edge passes through x.
 struct CutEnd {
   glm::dvec2 at;
   double w;
@@ -79,8 +81,8 @@ inline CutEnd cut_below(const glm::dvec2& p, double wp, const glm::dvec2& q, dou
   return {level + ((w - std::max(0.0, wp)) / (wq - wp)) * (q - p), w, true};
 }
 
-/// The segment from p to q, whatever the jump, which is left 0. An end that two edges share projects to the same bits in
-/// both.
+/// The segment from p to q, whatever the jump, which is left 0. An end that two edges share projects to the
+/// same bits in both.
 inline Projection project_segment(const Vec3& p, const Vec3& q, const Vec3& x, const Rounding& rounding) {
   // Cut it below the receiver.
   const glm::dvec2 from(x);

@@ -19,8 +19,8 @@
 namespace penumbra::detail {
 
 /// Drops blocks outside of a convex region, blocks below the receivers' tangent planes, and blocks whose
-/// planes have one sign for all receivers. Made by `Shaft::region`. Coordinates of edges are up to 1; margins grow with
-/// those of the receivers.
+/// planes have one sign for all receivers. Made by `Shaft::region`. Coordinates of edges are up to 1; margins
+/// grow with those of the receivers.
 class ReceiverRegion {
  public:
   /// As many as a `Shaft` has.

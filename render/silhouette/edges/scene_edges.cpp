@@ -58,8 +58,8 @@ LargeArray<SceneEdge> neighbors_together(LargeArray<Placed> edges) {
 }
 
 /// The side of eight planes on which the disk lies: 1 or -1, or 0 where that is not certain. c: the disk's
-/// homogeneous center in the coordinates of the planes. The distance of a plane with unit normal n from a point of the
-/// disk differs from that from the center by at most radius · √(1 - (n·normal)²).
+/// homogeneous center in the coordinates of the planes. The distance of a plane with unit normal n from a
+/// point of the disk differs from that from the center by at most radius · √(1 - (n·normal)²).
 PENUMBRA_INLINE void sides_over(const PlaneLanes& plane, const FloatDisk& disk, const std::array<float, 3>& c,
                                 Ints& out) {
   const auto& m = disk.normal;

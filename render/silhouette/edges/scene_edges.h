@@ -1,7 +1,7 @@
 // Silhouette method, step edges: all edges of a scene's casters, and which of them may be in a light's band.
 //
-// In: the casters, once. Out: for any circular light, the edges of its silhouette band (volumes/silhouettes.h),
-// without a look at every face.
+// In: the casters, once. Out: for any circular light, the edges of its silhouette band
+// (volumes/silhouettes.h), without a look at every face.
 //
 // Edges that lie close together are neighbors, eight a block: the edges are halved across the longest side
 // of their box, over and over. A tree of bounds stands over the blocks (bounds_tree.h). Where all faces of
@@ -34,8 +34,9 @@ struct SceneEdge {
   EdgeId id;
 };
 
-/// A circular light in float, in the frame (p - origin) · scale, with homogeneous coordinates: of a light that is far
-/// away the center and the radius are divided by its distance, or about that. Doubles are rounded with a margin.
+/// A circular light in float, in the frame (p - origin) · scale, with homogeneous coordinates: of a light
+/// that is far away the center and the radius are divided by its distance, or about that. Doubles are rounded
+/// with a margin.
 struct FloatDisk {
   FloatDisk(const CircularLight& light, const Vec3& origin, double scale);
   /// 1 for a light within [-1, 1], less the farther it is, 0 for a distant one.

@@ -8,12 +8,12 @@
 // Where both sides look the same way the edge is no silhouette, and where it runs does not matter. Else what
 // lies between chain and edge is taken for the wrong side. Let Q be the surface between them that joins each
 // point of the chain to the nearest point of the edge, n the direction halfway between the normals l and r of
-// the sides. x sees Q's parts across n in full. It sees parts along the surface at a slant: the mean planes of
-// the sides have values of opposite signs at x, so for p near the edge and ν = |l + r|
+// the sides. x sees Q's parts across n in full. It sees parts along the surface at a slant: the mean planes
+// of the sides have values of opposite signs at x, so for p near the edge and ν = |l + r|
 //   |n·(x - p)| ≤ (|l - r| |x - p| + 2 off) / ν,  off: the distances of p from both planes,
-// and off is the thickness of the sides or less: `swept` times the distance, plus `swept_at_any`. Sums over Q are
-// of magnitudes, and what a chain strays counts at its largest: nothing cancels, and a tooth in a long straight
-// border does not become smaller with it.
+// and off is the thickness of the sides or less: `swept` times the distance, plus `swept_at_any`. Sums over Q
+// are of magnitudes, and what a chain strays counts at its largest: nothing cancels, and a tooth in a long
+// straight border does not become smaller with it.
 #pragma once
 
 #include <cstdint>
@@ -71,13 +71,14 @@ class CasterMerger {
   double radius_of(std::uint32_t side) const;
   Vec3 normal_of(std::uint32_t side) const;
   Vec3 middle_of(std::uint32_t left, std::uint32_t right) const;
-  /// How much of what lies along the surface a receiver sees where the edge is a silhouette: no more than `tilted` times
-  /// its distance, plus `thick`, a length.
+  /// How much of what lies along the surface a receiver sees where the edge is a silhouette: no more than
+  /// `tilted` times its distance, plus `thick`, a length.
   struct Slant {
     double tilted, thick;
   };
   Slant slant(const EdgeChain& chain) const;
-  /// How far a silhouette is displaced by leaving the chain, for a receiver at the distance of the sides' radius.
+  /// How far a silhouette is displaced by leaving the chain, for a receiver at the distance of the sides'
+  /// radius.
   double left_by(const EdgeChain& chain) const;
   void join(const std::vector<EdgeChain>& edges, double tolerance);
   EdgeChain joined(std::span<const EdgeChain* const> way) const;

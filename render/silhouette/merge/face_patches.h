@@ -10,17 +10,17 @@
 // Let f's area be a_f, A = Σ a_f, its normal n_f, p_f a corner, its signed distance from x v_f; v and σ² the
 // mean and the variance of v_f by area. v has the sign of the mean plane, say it is positive. Then
 //   Σ_wrong a_f |v_f| = ½ Σ a_f (|v_f| - v_f) ≤ ½ A (√(σ² + v²) - v),
-// since the mean of |v_f| is no more than the root of that of v_f². Let m be the mean of n_f by area, c a point
-// on the mean plane, y = x - c and o_f = n_f·(c - p_f). Then A v = area · normal·y, with area = A |m|, and
-// v_f - v = (n_f - m)·y + o_f. So
+// since the mean of |v_f| is no more than the root of that of v_f². Let m be the mean of n_f by area, c a
+// point on the mean plane, y = x - c and o_f = n_f·(c - p_f). Then A v = area · normal·y, with area = A |m|,
+// and v_f - v = (n_f - m)·y + o_f. So
 //   A σ ≤ √(yᵀ turned y) + shifted,  turned = A Σ a_f (n_f - m)(n_f - m)ᵀ,  shifted = √(A Σ a_f o_f²).
 // Seen from x at the height H over a plane, f covers H² |v_f| ∫ w^-3 of that plane, w how far its points lie
 // below x. So what is taken for the wrong side covers H²/w³ · Σ_wrong a_f |v_f| or less.
 //
-// `error` tells which faces to merge: it is ½ √(Σ a_f (|n_f - m| + |o_f|/radius)²). With y of length 1, a part of
-// the patch with the area a has at most error · √a taken for the wrong side (Cauchy and Schwarz), and a
-// silhouette crosses it over a length of about √a. So `error` is how far a silhouette is displaced, over the
-// distance of the receiver. Flat faces around a bump do not make it smaller.
+// `error` tells which faces to merge: it is ½ √(Σ a_f (|n_f - m| + |o_f|/radius)²). With y of length 1, a
+// part of the patch with the area a has at most error · √a taken for the wrong side (Cauchy and Schwarz), and
+// a silhouette crosses it over a length of about √a. So `error` is how far a silhouette is displaced, over
+// the distance of the receiver. Flat faces around a bump do not make it smaller.
 //
 // On a smooth surface the error falls with the area of the patch. Flat patches have no error, however large
 // they are. So faces in one plane that hang together are put together first ("flats"; most have one face),

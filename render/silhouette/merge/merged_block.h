@@ -25,8 +25,8 @@ struct MergedEdge {
   VertexId from, to;
   /// The sides, as in FacePatches::Partition::side; `right` is kNoSide for a boundary.
   std::uint32_t left, right;
-  /// How far it displaces silhouettes, over the distance of the receiver. It tells which level to try; nothing
-  /// relies on it. Scene units.
+  /// How far it displaces silhouettes, over the distance of the receiver. It tells which level to try;
+  /// nothing relies on it. Scene units.
   float deviation = 0.0f;
   /// What the edge stands for is seen at most that far beside it; see MergedSides. Scene units.
   float margin = 0.0f;

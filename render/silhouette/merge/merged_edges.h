@@ -9,8 +9,8 @@
 // edges make of it. For x at the height H over that plane its area is
 //   Σ H²/w³ · (what the sides and chains of edges may have taken for the wrong side, MergedFaults)
 // or less, w how far they lie below x. The sum is over all patches that x sees from both sides, and over the
-// chains of edges that are silhouettes. Casters of few faces and faces that no patch holds stay as they are, with
-// nothing mistaken.
+// chains of edges that are silhouettes. Casters of few faces and faces that no patch holds stay as they are,
+// with nothing mistaken.
 #pragma once
 
 #include <algorithm>
@@ -101,7 +101,8 @@ FacePlane MergedLevel::side(const Scene& scene, const MergedEdge& e, std::uint32
             FaceId{side}, [&](const Vec3& p) { return frame.point(p); }, extent);
   const FacePatch& patch = patches[e.object][side - first];
   const Vec3 normal = frame.direction(patch.normal);
-  // The mean plane counts as holding x where those of all faces do: there, and only if they are all the same plane.
+  // The mean plane counts as holding x where those of all faces do: there, and only if they are all the same
+  // plane.
   const double grain = kPlaneGrain * extent, unit = frame.per_unit();
   const bool is_flat = patch.is_flat() && 4.0 * patch.thick * unit <= grain;
   sides = {frame.point(patch.center), patch.radius * unit, patch.tilt, patch.spread * unit, is_flat};

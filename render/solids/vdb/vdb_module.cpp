@@ -16,7 +16,8 @@ openvdb::math::Transform::Ptr transform_of(const penumbra::LightField& field) {
 
 }  // namespace
 
-/// What is wholly lit is background. Umbra stays active, so that the grid tells it from light; where it fills a leaf it is a tile.
+/// What is wholly lit is background. Umbra stays active, so that the grid tells it from light; where it fills
+/// a leaf it is a tile.
 void penumbra_write_vdb(std::ostream& out, const penumbra::LightField& field) {
   openvdb::initialize();
   using Dense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;

@@ -1,5 +1,5 @@
-// The module that writes fields as grids of OpenVDB: a library of its own, opened when a field is written as .vdb, because starting
-// OpenVDB takes a program 40 ms and 30 MB.
+// The module that writes fields as grids of OpenVDB: a library of its own, opened when a field is written as
+// .vdb, because starting OpenVDB takes a program 40 ms and 30 MB.
 #pragma once
 
 #include <iosfwd>

@@ -1,5 +1,5 @@
-// Where results go: never over an input, through links, under any name that the file system allows; nothing half-written
-// is left behind.
+// Where results go: never over an input, through links, under any name that the file system allows; nothing
+// half-written is left behind.
 #include <gtest/gtest.h>
 #include <signal.h>
 

@@ -1,4 +1,5 @@
-// penumbra study --peers: what is made of other programs' pictures, and that one that is missing or fails does not lose the run.
+// penumbra study --peers: what is made of other programs' pictures, and that one that is missing or fails
+// does not lose the run.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// penumbra study: which settings there are, what is written, and that a second call measures only what is missing.
+// penumbra study: which settings there are, what is written, and that a second call measures only what is
+// missing.
 #include <gtest/gtest.h>
 
 #include <algorithm>

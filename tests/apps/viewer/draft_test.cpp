@@ -9,8 +9,8 @@
 namespace penumbra::viewer {
 namespace {
 
-/// Drafts of a picture that takes `full` milliseconds at full size, of which `fixed` do not depend on its size; returns the
-/// reductions that were drawn.
+/// Drafts of a picture that takes `full` milliseconds at full size, of which `fixed` do not depend on its
+/// size; returns the reductions that were drawn.
 std::vector<int> draw(DraftPolicy& policy, double full, double fixed, int count) {
   std::vector<int> reductions;
   for (int i = 0; i < count; ++i) {

@@ -267,7 +267,8 @@ TEST_F(WorkTest, TheSectionOfACutSolidIsFilled) {
     ASSERT_EQ(window.wait(), 0) << read_text(file("errors"));
     orange[cut] = orange_pixels(file("w.png"), 400);
   }
-  // The section through the axis covers about as much as half of the silhouette's; glass is strong at its rim only.
+  // The section through the axis covers about as much as half of the silhouette's; glass is strong at its rim
+  // only.
   EXPECT_GT(orange[1], orange[0] + 3000) << orange[0];
 }
 

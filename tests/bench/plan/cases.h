@@ -1,4 +1,5 @@
-// Scenes for the planner: named ones, on which its model is fitted, some that are hard on one method, and scenes by chance.
+// Scenes for the planner: named ones, on which its model is fitted, some that are hard on one method, and
+// scenes by chance.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,8 @@ std::vector<std::string> foolish_cases();
 ///   wires-COUNT-R        long thin triangles across all of the floor
 ///   grass-COUNT-R        blades on the floor
 ///   balls-COUNT-R        small spheres in a box, of 80 faces each
-///   random-SEED          by chance: a floor, a terrain or a room; up to eight casters of all kinds; a disk or a sun
+///   random-SEED          by chance: a floor, a terrain or a room; up to eight casters of all kinds; a disk
+///                        or a sun
 ///
 /// Throws UsageError for other names.
 Scene plan_case(const std::string& name);

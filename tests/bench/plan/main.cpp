@@ -1,5 +1,5 @@
-// What the planner is fitted to and judged by: `./run plan-model`, `./run plan-check`. Rows of JSON, one a scene; those that
-// a file has are not measured again.
+// What the planner is fitted to and judged by: `./run plan-model`, `./run plan-check`. Rows of JSON, one a
+// scene; those that a file has are not measured again.
 #include <algorithm>
 #include <cstdio>
 #include <exception>

@@ -1,7 +1,8 @@
 // What methods take and how far they are off on one scene.
 //
-// Times are those of the processor on one thread, halved for two cores: other work on the machine and idle threads change them less
-// than the wall's clock. Errors are of V, by rays in double without offset that share nothing with render (tests/oracle).
+// Times are those of the processor on one thread, halved for two cores: other work on the machine and idle
+// threads change them less than the wall's clock. Errors are of V, by rays in double without offset that
+// share nothing with render (tests/oracle).
 #pragma once
 
 #include <map>
@@ -19,7 +20,8 @@ namespace penumbra::bench {
 
 struct MeasureOptions {
   int width = 320, height = 240;
-  /// Pixels in penumbra at which the judge looks, and its rays at each, twice. Without pixels errors are not judged.
+  /// Pixels in penumbra at which the judge looks, and its rays at each, twice. Without pixels errors are not
+  /// judged.
   std::size_t judged = 1'000;
   int judge_samples = 4'096;
 };
@@ -40,12 +42,12 @@ class MeasuredScene {
  public:
   MeasuredScene(Scene scene, const MeasureOptions& options);
 
-  /// planned(), a "measured" for each setting, and an "auto" for each budget. `timed`: else each is run once, and times mean
-  /// nothing.
+  /// planned(), a "measured" for each setting, and an "auto" for each budget. `timed`: else each is run once,
+  /// and times mean nothing.
   nlohmann::json row(const std::vector<Setting>& settings, const std::vector<double>& budgets,
                      bool timed = true) const;
-  /// Facts of the plan, the milliseconds that it takes, and for each setting with rays the RMSE that it says is "kept" nineteen
-  /// times of twenty.
+  /// Facts of the plan, the milliseconds that it takes, and for each setting with rays the RMSE that it says
+  /// is "kept" nineteen times of twenty.
   nlohmann::json planned(const std::vector<Setting>& settings) const;
 
  private:

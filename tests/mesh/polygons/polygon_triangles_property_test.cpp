@@ -34,8 +34,8 @@ class Sides {
   std::map<std::pair<Point, Point>, int> net_;
 };
 
-/// The triangles have the polygon as their boundary, none is turned round, and their areas add up. `unit` is the
-/// area vector of a polygon of double area 1; arithmetic is exact.
+/// The triangles have the polygon as their boundary, none is turned round, and their areas add up. `unit` is
+/// the area vector of a polygon of double area 1; arithmetic is exact.
 void expect_divided(const std::vector<Vec3>& corners, const PolygonTriangles& divided, const Vec3& unit,
                     double double_area) {
   Sides outline, sides;

@@ -1,5 +1,6 @@
-// The room of data/bake with its lightmap, and what a test must know of it: it reads the texture coordinates from the file that is written for other programs, and
-// asks the oracle. It has no code in common with what is judged.
+// The room of data/bake with its lightmap, and what a test must know of it: it reads the texture coordinates
+// from the file that is written for other programs, and asks the oracle. It has no code in common with what
+// is judged.
 #pragma once
 
 #include <array>

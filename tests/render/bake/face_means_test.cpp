@@ -12,7 +12,8 @@
 namespace penumbra {
 namespace {
 
-/// A floor of two triangles, 2 by 2, and a plate high above whose shadow ends at x = `edge` under a light from above.
+/// A floor of two triangles, 2 by 2, and a plate high above whose shadow ends at x = `edge` under a light
+/// from above.
 std::vector<SceneObject> half_shadowed(double edge) {
   const std::vector<Vec3> floor{{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
   const std::vector<Vec3> plate{{-9, 3, -9}, {edge, 3, -9}, {edge, 3, 9}, {-9, 3, 9}};
@@ -32,7 +33,8 @@ std::vector<float> baked(double edge, const FaceMeansOptions& options) {
 TEST(FaceMeans, FacesGetTheirShareOfLight) {
   const std::vector<float> lit = baked(0.0, {.side = 32});
   ASSERT_EQ(lit.size(), 2u);
-  // The diagonal from (-1, -1) to (1, 1) leaves 3/4 of the first triangle on the lit side, and 1/4 of the second.
+  // The diagonal from (-1, -1) to (1, 1) leaves 3/4 of the first triangle on the lit side, and 1/4 of the
+  // second.
   EXPECT_NEAR(lit[0], 0.75, 0.02);
   EXPECT_NEAR(lit[1], 0.25, 0.02);
 }
@@ -40,7 +42,8 @@ TEST(FaceMeans, FacesGetTheirShareOfLight) {
 TEST(FaceMeans, VerticesGetTheMeanAroundThem) {
   const std::vector<float> lit = baked(0.0, {.place = BakePlace::kVertices, .side = 32});
   ASSERT_EQ(lit.size(), 4u);
-  // Of the vertex at (1, -1), whose hat function on its one triangle is (x - z) / 2: the integral over x > 0 is 7/12, of 8/12 in all.
+  // Of the vertex at (1, -1), whose hat function on its one triangle is (x - z) / 2: the integral over x > 0
+  // is 7/12, of 8/12 in all.
   EXPECT_NEAR(lit[1], 0.875, 0.02);
   EXPECT_NEAR(lit[3], 0.125, 0.02);
   EXPECT_NEAR(lit[0] + lit[2], 1.0, 0.02);

@@ -147,7 +147,8 @@ std::vector<SceneObject> plate_and_floor() {
 const std::vector<Light> kDisk{
     {.name = "disk", .shape = DiskLight{{0.2, 3, 0.1}, {0, -1, 0}, 0.6}, .radiance = {2, 3, 4}}};
 
-/// A floor in two charts, one of them turned by 20 degrees, neither along texels; the seam runs through the penumbra of a plate.
+/// A floor in two charts, one of them turned by 20 degrees, neither along texels; the seam runs through the
+/// penumbra of a plate.
 struct DividedFloor {
   static constexpr double kSeam = 0.37, kTexels = 20.0;
 
@@ -201,7 +202,8 @@ TEST(Lightmap, NoSeamShowsWhereAFloorIsDivided) {
   std::printf("seam: RMSE %.4f, steps %.4f, worst %.4f; without fitting %.4f, steps %.4f, worst %.4f\n",
               fitted.from_truth.rms(), fitted.steps.rms(), fitted.steps.worst, means.from_truth.rms(),
               means.steps.rms(), means.steps.worst);
-  // Below a step of a display of 8 bits, .004; the worst, below four: where the penumbra begins and ends within a texel.
+  // Below a step of a display of 8 bits, .004; the worst, below four: where the penumbra begins and ends
+  // within a texel.
   EXPECT_LE(fitted.steps.rms(), 0.003);
   EXPECT_LE(fitted.steps.worst, 0.015);
   EXPECT_LE(fitted.from_truth.rms(), 0.003);

@@ -64,7 +64,8 @@ struct Plane {
   Values open;
 };
 
-/// Samples what is true and remembers which pixels were sampled. Samples deny entries that they differ from by `least`.
+/// Samples what is true and remembers which pixels were sampled. Samples deny entries that they differ from
+/// by `least`.
 struct Oracle {
   Values truth;
   float least = 1e-6f;

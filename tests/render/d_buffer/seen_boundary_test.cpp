@@ -25,8 +25,8 @@ Vec3 seen_at(const glm::dvec2& d, double height) {
   return kReceiver + height * Vec3(d, 1.0);
 }
 
-/// Records of a line of edges; `closed`: the last joins the first. Lit is the left as seen on the disk: edges run against
-/// the line, since light space is a mirror image of the world.
+/// Records of a line of edges; `closed`: the last joins the first. Lit is the left as seen on the disk: edges
+/// run against the line, since light space is a mirror image of the world.
 std::vector<glm::vec4> records_of(const std::vector<Vec3>& line, bool closed) {
   const std::vector<Vec3> corners(line.rbegin(), line.rend());
   const std::size_t edges = closed ? corners.size() : corners.size() - 1;

@@ -74,7 +74,8 @@ TEST(DepthComplexity, IsTheReferenceForTrianglesThatAreNoSurface) {
   expect_ties_only(off, "soup");
 }
 
-// Rays in double that share no code with the method or with the reference's rays, to the same points of the light.
+// Rays in double that share no code with the method or with the reference's rays, to the same points of the
+// light.
 TEST(DepthComplexity, CountsTheSamplesThatExactRaysReach) {
   constexpr int kSamples = 64;
   for (const char* name : {"cube-medium", "torus-medium", "boxes-large", "foliage-medium", "bunny-large"}) {

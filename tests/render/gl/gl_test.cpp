@@ -164,7 +164,8 @@ TEST_P(GlBackend, TwoHalfPlanesAreaIsThatOfCpp) {
   });
 }
 
-/// A point of light space where the light's frame, with the disk of radius 1 in z = 0, has p: (x/z, y/z, 1/z).
+/// A point of light space where the light's frame, with the disk of radius 1 in z = 0, has p: (x/z, y/z,
+/// 1/z).
 Vec3 in_light_space(const Vec3& p) {
   return {p.x / p.z, p.y / p.z, 1.0 / p.z};
 }
@@ -172,8 +173,8 @@ Vec3 in_light_frame(const glm::vec4& p) {
   return {double{p.x} / double{p.z}, double{p.y} / double{p.z}, 1.0 / double{p.z}};
 }
 
-// Float is exact to 6e-8 of coordinates up to 4, the plane's normal loses what its sines lose: inputs are those
-// where the product of it all stays below 1e-5.
+// Float is exact to 6e-8 of coordinates up to 4, the plane's normal loses what its sines lose: inputs are
+// those where the product of it all stays below 1e-5.
 TEST_P(GlBackend, ChordsOfEdgesAreThoseOfCpp) {
   Random random(kSeed);
   Inputs inputs;

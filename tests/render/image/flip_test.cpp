@@ -1,5 +1,5 @@
-// ꟻLIP against values of its definition that were computed in another way: in Python, with the constants and the kernels in
-// two dimensions of the authors' program (flip_api.py of version 1.2).
+// ꟻLIP against values of its definition that were computed in another way: in Python, with the constants and
+// the kernels in two dimensions of the authors' program (flip_api.py of version 1.2).
 #include "render/image/flip.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Form factor and area above the horizon of distant lights: closed forms, sums over directions, and disks that
-// recede.
+// Form factor and area above the horizon of distant lights: closed forms, sums over directions, and disks
+// that recede.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,8 +26,8 @@ struct Sums {
   double above = 0.0;   ///< the part of the disk's area with n·ω > 0
 };
 
-/// By the midpoint rule on the sphere, in rings about the light's direction. The area element of the disk at unit
-/// distance is dω / cos³θ.
+/// By the midpoint rule on the sphere, in rings about the light's direction. The area element of the disk at
+/// unit distance is dω / cos³θ.
 Sums over_directions(const DistantLight& light, const Vec3& n, int rings, int sectors) {
   const LightFrame f = light_frame(DiskLight{.normal = light.direction});
   const double ring = half_angle(light) / rings, sector = 2.0 * kPi / sectors;
@@ -100,7 +100,8 @@ TEST(DistantIntegralsProperty, AgreeWithSumsOverDirections) {
     const double all = irradiance_per_radiance(light),
                  above = fraction_above_horizon(area, random.point(), n);
     const double factor_error = std::abs(irradiance_factor(area, random.point(), n) - expected.factor) / all;
-    // The sum is wrong by the cells that the horizon cuts. The widest ring of a disk of 170° has 1/40 of its area.
+    // The sum is wrong by the cells that the horizon cuts. The widest ring of a disk of 170° has 1/40 of its
+    // area.
     ASSERT_LE(factor_error, 2e-5) << "seed " << kSeed << ", " << k << ", " << light.angle_degrees << "°";
     ASSERT_NEAR(above, expected.above, 2e-3) << "seed " << kSeed << ", " << k << ", " << light.angle_degrees;
     worst_factor = std::max(worst_factor, factor_error);
@@ -132,8 +133,8 @@ TEST(DistantIntegralsProperty, AreThoseOfTheDiskAtUnitDistance) {
   }
 }
 
-// A small disk is a plane figure: with the height δρ + ρ q above the horizon at the disk's point ρ q the factor is
-// ρ³ (δ area + first moment), off by the order of ρ².
+// A small disk is a plane figure: with the height δρ + ρ q above the horizon at the disk's point ρ q the
+// factor is ρ³ (δ area + first moment), off by the order of ρ².
 TEST(DistantIntegrals, OfASmallDiskAtTheHorizonKeepTheirDigits) {
   for (const double angle : {1e-2, 1e-4, 1e-8, 1e-12})
     for (double delta = -0.95; delta < 1.0; delta += 0.1) {
@@ -147,7 +148,8 @@ TEST(DistantIntegrals, OfASmallDiskAtTheHorizonKeepTheirDigits) {
 }
 
 // A disk of the same angle at distance D, seen from a place of size 1: its direction is off by 1/D and its
-// radius by a factor of 1 ± 1/D. So both factors differ by the order of 1/D, the area by that of 1/(D tan(angle/2)).
+// radius by a factor of 1 ± 1/D. So both factors differ by the order of 1/D, the area by that of 1/(D
+// tan(angle/2)).
 TEST(DistantIntegralsProperty, AreTheLimitsOfADiskThatRecedes) {
   constexpr std::uint64_t kSeed = 1'618;
   for (const double angle : kAngles) {
@@ -170,7 +172,8 @@ TEST(DistantIntegralsProperty, AreTheLimitsOfADiskThatRecedes) {
       const double radius = std::tan(0.5 * glm::radians(angle));
       EXPECT_LE(factor, 4.0 / distance + 1e-15 / radius + 1e-13) << angle << "° at " << distance;
       EXPECT_LE(above, (1.0 + 1.0 / radius) / distance + 1e-13 / radius) << angle << "° at " << distance;
-      // Near disks that the horizon cuts round by 1e-16 of their radius, the factor is of the order of its square.
+      // Near disks that the horizon cuts round by 1e-16 of their radius, the factor is of the order of its
+      // square.
       if (factor > 1e-11 + 1e-15 / radius && before_factor > 0.0) {
         EXPECT_LT(factor, 0.15 * before_factor) << angle << "° at " << distance;
       }

@@ -15,7 +15,8 @@ struct Place {
   Vec3 point, normal;
 };
 
-/// Around the light: near and far, before and behind it, turned anywhere or so that their tangent planes meet the light.
+/// Around the light: near and far, before and behind it, turned anywhere or so that their tangent planes meet
+/// the light.
 Place place_of(Random& random, const AreaLight& light, int k) {
   const double size = std::max(light.half.x, 0.1);
   const Vec3 point = light.center + size * random.spread(0.3, 100.0) * random.direction();

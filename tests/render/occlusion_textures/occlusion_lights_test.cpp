@@ -23,8 +23,8 @@ std::size_t pixels_not_in_range(const testing::Frame& frame) {
       frame.visibility, [](float visibility) { return !(visibility >= 0.0f && visibility <= 1.0f); }));
 }
 
-// The top and the floor are parallel to the slices: their horizons meet no slice. Tiles at the box's outline have pixels on
-// both: some of the slices before the floor are behind the top.
+// The top and the floor are parallel to the slices: their horizons meet no slice. Tiles at the box's outline
+// have pixels on both: some of the slices before the floor are behind the top.
 TEST(OcclusionTextures, ATopAlongTheSlicesSeesAllOfTheLight) {
   for (const LightShape& light : std::initializer_list<LightShape>{
            DistantLight{{0, -1, 0}, 2.0}, DiskLight{{0.1, 1.0 + 1e-9, 0}, {0, -1, 0}, 0.2},
@@ -54,8 +54,8 @@ double rms(const testing::Frame& frame) {
   return std::sqrt(squares / static_cast<double>(seen));
 }
 
-// Nothing outside sees the light, so V is its own error. Walls go on from slice to slice, and light leaks between: .389, and
-// .067 to .100 with the fix, by where the slices end. The bounds are some quarter above.
+// Nothing outside sees the light, so V is its own error. Walls go on from slice to slice, and light leaks
+// between: .389, and .067 to .100 with the fix, by where the slices end. The bounds are some quarter above.
 TEST(OcclusionTextures, AClosedBoxAroundTheLightLeaksLittleWithTheThinFix) {
   const DiskLight inside{{0, 0.5, 0}, {0, -1, 0}, 0.2};
   const double plain = rms(frame_under(inside)),

@@ -6,7 +6,8 @@
 namespace penumbra {
 namespace {
 
-// Sheets by the texels' coverage: else the error depends on where in a texel an edge happens to lie, .02 to .09.
+// Sheets by the texels' coverage: else the error depends on where in a texel an edge happens to lie, .02 to
+// .09.
 TEST(OcclusionScale, KeepsItsOwnError) {
   testing::expect_own_error("occlusion-textures", {{"coverage", std::string("area")}});
 }
@@ -20,8 +21,8 @@ TEST(OcclusionScale, FarDisksConvergeToTheDistantLight) {
   testing::expect_suns_to_converge("occlusion-textures", 0.02, 0.005);
 }
 
-// The plane of a box's side runs through the sun's center: the receiver's horizon halves the sun, and the box itself must
-// not hide the rest.
+// The plane of a box's side runs through the sun's center: the receiver's horizon halves the sun, and the box
+// itself must not hide the rest.
 TEST(OcclusionTextures, ASidePlaneSeesItsHalfOfTheSun) {
   const testing::Frame frame =
       testing::frame_of(testing::regression_scene("sun_distant"), "occlusion-textures");

@@ -21,7 +21,8 @@ const OptionValues kMany{{"search-samples", std::uint64_t{1024}},
                          {"filter-samples", std::uint64_t{1024}},
                          {"map-size", std::uint64_t{4096}}};
 
-// One blocker at one depth, parallel to light and floor: the filter's window is the light, seen on the blocker's plane.
+// One blocker at one depth, parallel to light and floor: the filter's window is the light, seen on the
+// blocker's plane.
 TEST(Pcss, IsRightForAFlatBlockerParallelToTheLight) {
   const RowOfReceivers floor(-1.4, 1.4);
   const std::vector<TriangleMesh> sheet{testing::rectangle(0, 6, -6, 6, 1.0)};
@@ -86,9 +87,11 @@ TEST(Pcss, BiasesKeepSurfacesFromShadowingThemselves) {
   EXPECT_LT(mean({{"receiver-plane", std::string("off")}, {"map-bias", 0.0}, {"slope-bias", 0.0}}), 0.95);
 }
 
-// What it gets wrong by design: a blocker that hides nothing from the receiver counts where it is nearer to the light.
+// What it gets wrong by design: a blocker that hides nothing from the receiver counts where it is nearer to
+// the light.
 TEST(Pcss, SeesOneSurfaceATexel) {
-  // A small plate close to the light hides a large one below from the map, but not the light from the receiver.
+  // A small plate close to the light hides a large one below from the map, but not the light from the
+  // receiver.
   const std::vector<TriangleMesh> plates{testing::rectangle(-0.2, 0.2, -0.2, 0.2, 0.2),
                                          testing::rectangle(-1.5, 1.5, -1.5, 1.5, 1.8)};
   const std::vector<Vec3> points{{0, 0, 2}}, normals{{0, 0, -1}};

@@ -45,7 +45,8 @@ struct Pictures {
   LightPlan plan;
 };
 
-/// By auto, and by the method that it chose among all casters. `by_areas`: areas at all receivers are asked for.
+/// By auto, and by the method that it chose among all casters. `by_areas`: areas at all receivers are asked
+/// for.
 Pictures see_both(const Scene& scene, const Receivers& receivers, bool by_areas = false) {
   const RayScene rays(scene, 0);
   const LightShape& light = scene.lights.front().shape;
@@ -87,7 +88,8 @@ TEST(AutoMethod, WhatItLeavesOutChangesNothing) {
   EXPECT_GT(by_rays, 5u);
 }
 
-// A thin post whose penumbra's edge is moved over the one visible receiver, by steps of a thousandth of the light.
+// A thin post whose penumbra's edge is moved over the one visible receiver, by steps of a thousandth of the
+// light.
 TEST(AutoMethod, ACasterThatOnlyJustReachesIsKept) {
   const DiskLight light{{0, 4, 0}, {0, -1, 0}, 1.0};
   const std::vector<Vec3> points{{0, 0, 0}};
@@ -125,8 +127,8 @@ std::pair<double, std::size_t> error_in_penumbra(const std::vector<float>& value
   return {std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1))), count};
 }
 
-// As many rays as the plan would take, whether or not it takes them. The judge is the silhouette method, whose own error is some
-// hundredth of these.
+// As many rays as the plan would take, whether or not it takes them. The judge is the silhouette method,
+// whose own error is some hundredth of these.
 TEST(AutoMethod, TakesRaysEnoughForTheErrorInNineteenOfTwenty) {
   std::size_t judged = 0, kept = 0, far_below = 0;
   for (std::uint64_t seed = 100; seed < 160; ++seed) {
@@ -154,11 +156,13 @@ TEST(AutoMethod, TakesRaysEnoughForTheErrorInNineteenOfTwenty) {
   }
   EXPECT_GT(judged, 60u);
   EXPECT_GE(20 * kept, 19 * judged) << kept << " of " << judged;
-  // Nor many more rays than are needed; but of so small a picture few receivers lie in penumbra, and the margin is large.
+  // Nor many more rays than are needed; but of so small a picture few receivers lie in penumbra, and the
+  // margin is large.
   EXPECT_LE(5 * far_below, judged) << far_below << " of " << judged;
 }
 
-// Pixels at which the hard shadow is wrong lie beside its boundary, where the penumbra is said to be narrower than a pixel.
+// Pixels at which the hard shadow is wrong lie beside its boundary, where the penumbra is said to be narrower
+// than a pixel.
 TEST(AutoMethod, ANarrowPenumbraLiesBesideTheHardShadow) {
   std::size_t hard = 0, wrong = 0;
   for (const double radius : {0.0005, 0.002, 0.1}) {

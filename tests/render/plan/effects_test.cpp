@@ -14,7 +14,8 @@
 namespace penumbra {
 namespace {
 
-/// A ball of 5,120 faces, which may be merged, and leaves over a floor. Behind the camera stands a box whose shadow nobody sees.
+/// A ball of 5,120 faces, which may be merged, and leaves over a floor. Behind the camera stands a box whose
+/// shadow nobody sees.
 Scene ball_and_leaves() {
   Scene scene;
   scene.camera = {.eye = {3, 3.5, 5}, .target = {0, 0.4, 0}, .fov_y_degrees = 40.0};

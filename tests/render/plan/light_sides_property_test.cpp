@@ -1,5 +1,5 @@
-// Planes between a light's receivers and a caster: what is separated is never met by a segment, and what is clearly apart is
-// separated.
+// Planes between a light's receivers and a caster: what is separated is never met by a segment, and what is
+// clearly apart is separated.
 #include "render/plan/light_sides.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// The margin over what pilots say: it is kept about as often as it claims, and is no larger than it has to be.
+// The margin over what pilots say: it is kept about as often as it claims, and is no larger than it has to
+// be.
 #include "render/plan/sample/ray_error.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,8 @@ using detail::squared_error_kept;
 
 constexpr double kVariance = 0.15, kBoundary = 0.5;
 
-/// Receivers whose squared errors by n rays spread about the model's: by exp(spread·N), or none at all for some.
+/// Receivers whose squared errors by n rays spread about the model's: by exp(spread·N), or none at all for
+/// some.
 struct Population {
   double spread, with_none;
 

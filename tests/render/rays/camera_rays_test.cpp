@@ -1,4 +1,5 @@
-// What a camera sees, against the oracle: close-ups, cameras far away, inside and between things of very different size.
+// What a camera sees, against the oracle: close-ups, cameras far away, inside and between things of very
+// different size.
 #include "render/rays/camera_rays.h"
 
 #include <gtest/gtest.h>
@@ -115,7 +116,8 @@ TEST(CameraRays, SeeFromInsideAndBetweenScales) {
   expect_same(armadillo, "a close-up of it", 10'000);
 }
 
-// Rays through another point of every pixel are those through the centers of a picture that is moved by as much.
+// Rays through another point of every pixel are those through the centers of a picture that is moved by as
+// much.
 TEST(CameraRays, GoThroughAnyPointOfAPixel) {
   const Scene scene = testing::data_scene("torus-medium");
   const RayScene rays(scene, 0);

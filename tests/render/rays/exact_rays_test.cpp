@@ -73,8 +73,8 @@ std::vector<TriangleMesh> boxes(Random& random, int count) {
   return out;
 }
 
-/// Rays from faces, from the air and from afar that pass edges closely on either side, to lights at any distance. Float
-/// has the last word where a ray grazes both faces of an edge; one of these does.
+/// Rays from faces, from the air and from afar that pass edges closely on either side, to lights at any
+/// distance. Float has the last word where a ray grazes both faces of an edge; one of these does.
 TEST(ExactRays, AgreeBesideEdges) {
   Random random(402);
   const double far[] = {1e1, 1e3, 1e5, 1e7, 1e11};

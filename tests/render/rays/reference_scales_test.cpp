@@ -1,4 +1,5 @@
-// The reference at any scale: scenes moved, turned and scaled, lights far away and infinitely far, large floors.
+// The reference at any scale: scenes moved, turned and scaled, lights far away and infinitely far, large
+// floors.
 #include <gtest/gtest.h>
 
 #include "tests/render/rays/ray_support.h"
@@ -60,7 +61,8 @@ TEST(ReferenceScales, PowersOfTwoChangeNoBit) {
   }
 }
 
-/// Light samples keep their places on the disk where the light's axes turn with it, which they do for scales and shifts.
+/// Light samples keep their places on the disk where the light's axes turn with it, which they do for scales
+/// and shifts.
 TEST(ReferenceScales, ScalesAndShiftsChangeNextToNothing) {
   const Scene scene = testing::data_scene("boxes-medium");
   const testing::View view(scene, 96, 72);

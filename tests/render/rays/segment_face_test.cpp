@@ -47,8 +47,8 @@ TEST(SideOfPlane, AllowsForRoundedCoordinates) {
   EXPECT_GT(off, 19'000u) << "some faces are slivers";
 }
 
-/// The oracle moves coordinates by fewer roundings: what it takes for a point of the plane is one here, too; and where both
-/// see a side, it is the same.
+/// The oracle moves coordinates by fewer roundings: what it takes for a point of the plane is one here, too;
+/// and where both see a side, it is the same.
 TEST(SideOfPlane, AgreesWithTheOracle) {
   Random random(422);
   std::size_t zeros = 0;

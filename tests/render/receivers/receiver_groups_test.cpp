@@ -133,7 +133,8 @@ TEST(ReceiverGroups, LieCloseTogether) {
   }
   // 64 of the 10,000 points of a side are a square of 6 √(64/10,000) a side, half of whose diagonal is .34.
   EXPECT_LE(sum / static_cast<double>(groups.size()), 0.45);
-  // The planes nearly touch, but groups are divided by normals too; their middle need not lie between the sides.
+  // The planes nearly touch, but groups are divided by normals too; their middle need not lie between the
+  // sides.
   EXPECT_LE(both_sides, groups.size() / 10);
 }
 

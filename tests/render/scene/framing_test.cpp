@@ -36,7 +36,8 @@ Reach reach_of(const std::vector<Vec3>& points, const Camera& camera, double asp
   return reach;
 }
 
-// A square that faces the camera and fills its height: the camera's distance is its half side over the frustum's.
+// A square that faces the camera and fills its height: the camera's distance is its half side over the
+// frustum's.
 TEST(CameraThatSees, ASquareAsNearAsItFits) {
   const std::vector<Vec3> square = {{4, 4, 7}, {6, 4, 7}, {6, 6, 7}, {4, 6, 7}};
   const Camera camera = detail::camera_that_sees(square, {0, 0, -1}, {0, 1, 0}, {0.8, 0.5});
@@ -45,8 +46,8 @@ TEST(CameraThatSees, ASquareAsNearAsItFits) {
   EXPECT_NEAR(std::tan(camera.fov_y_degrees * testing::kPi / 360.0), 0.5, 1e-15);
 }
 
-// One pair of sides touches points at both, or else some point is as near as any may be: no camera of this direction that
-// sees all is nearer.
+// One pair of sides touches points at both, or else some point is as near as any may be: no camera of this
+// direction that sees all is nearer.
 TEST(CameraThatSees, TouchesPointsOnBothSides) {
   constexpr std::uint64_t kSeed = 71;
   Random random(kSeed);

@@ -85,7 +85,8 @@ TEST_F(MeshFilesTest, ABareMeshHasItsColors) {
 }
 
 TEST_F(MeshFilesTest, NormalsGoWithTheObject) {
-  // A corner without normal, and a component that is turned outward: corners 1 and 2 of its faces change places.
+  // A corner without normal, and a component that is turned outward: corners 1 and 2 of its faces change
+  // places.
   write("square.obj",
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn -1 -1 -1\nvn 3 0 0\nvn 0 1 0\nvn 0 0 1\n"
         "f 1//1 2//2 3//3\nf 1//1 4//4 2//2\nf 1//1 3//3 4//4\nf 2//2 4 3//3\n");

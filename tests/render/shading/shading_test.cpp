@@ -188,8 +188,8 @@ TEST(Shade, OfRadiusZeroIsAPointLight) {
   EXPECT_EQ(image.at("G")[1], 0.0f);
 }
 
-// A floor under a sun at elevation e gets E sin e where nothing is in the way, wherever it is; so does it under a
-// point at infinity.
+// A floor under a sun at elevation e gets E sin e where nothing is in the way, wherever it is; so does it
+// under a point at infinity.
 TEST(Shade, OfADistantLightIsByItsIrradiance) {
   for (const double angle : {0.0, 0.53, 40.0})
     for (const double elevation : {25.0, 60.0, 90.0}) {

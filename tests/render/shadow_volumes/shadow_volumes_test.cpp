@@ -89,7 +89,8 @@ TEST(ShadowVolumes, LightsInsideBehindAndFar) {
     expect_hard(from_hard(casters, light, {.points = around}), name_of(light));
 }
 
-// Whoever stands in a volume, deep below or far above: where a volume ends does not show, nor which casters are left out.
+// Whoever stands in a volume, deep below or far above: where a volume ends does not show, nor which casters
+// are left out.
 TEST(ShadowVolumes, CullingAndClampingSaveWorkAndChangeNothing) {
   const Scene scene = testing::data_scene("boxes-medium");
   SurfaceBuffer surface = make_surface_buffer(scene, RayScene(scene, 0), 160, 120);
@@ -114,7 +115,8 @@ TEST(ShadowVolumes, CullingAndClampingSaveWorkAndChangeNothing) {
   EXPECT_EQ(count(both, "crossed_polygons"), count(unclamped, "crossed_polygons"));
 }
 
-// A square and a light above its middle: five polygons, and the shadow is twice as wide on a floor twice as far away.
+// A square and a light above its middle: five polygons, and the shadow is twice as wide on a floor twice as
+// far away.
 TEST(ShadowVolumes, OfASquareHaveACapOfTwoFacesAndFourSides) {
   const Casters casters(std::vector<TriangleMesh>{testing::rectangle(-1, 1, -1, 1, 1.0)});
   std::vector<Vec3> floor;

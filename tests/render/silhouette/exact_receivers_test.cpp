@@ -1,5 +1,5 @@
-// Receivers on vertices, edges and faces of what casts, against rays in double that share nothing with the method
-// (tests/oracle): a face in whose plane a receiver lies hides nothing from it, all others do.
+// Receivers on vertices, edges and faces of what casts, against rays in double that share nothing with the
+// method (tests/oracle): a face in whose plane a receiver lies hides nothing from it, all others do.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// The frame of the light against the world: where points of the disk go, what a receiver sees, and sides of planes.
+// The frame of the light against the world: where points of the disk go, what a receiver sees, and sides of
+// planes.
 #include "render/silhouette/edges/unit_light.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,8 @@ namespace {
 
 using penumbra::testing::Random;
 
-/// A light whose disk fills about `angle` radians from the origin, `distance` away; infinite: a distant light.
+/// A light whose disk fills about `angle` radians from the origin, `distance` away; infinite: a distant
+/// light.
 CircularLight light_at(const Vec3& direction, double distance, double angle) {
   if (std::isinf(distance))
     return DistantLight{.direction = direction,

@@ -33,7 +33,8 @@ TEST(Smoothies, OfAnEdgeAreASmoothStepOutsideOfTheHardShadow) {
   }
 }
 
-// All edges lie at one depth, for which the width is right. At a corner the least of two edges counts, so that round corners are as wide as straight ones.
+// All edges lie at one depth, for which the width is right. At a corner the least of two edges counts, so
+// that round corners are as wide as straight ones.
 TEST(Smoothies, OfACornerAreRound) {
   const Casters casters(std::vector<TriangleMesh>{testing::rectangle(0, 6, 0, 6, 1.0)});
   std::vector<Vec3> points;
@@ -47,7 +48,8 @@ TEST(Smoothies, OfACornerAreRound) {
     EXPECT_NEAR(values[i], smooth(std::hypot(points[i].x, points[i].y)), 0.01) << i;
 }
 
-// One width for all edges is right for one depth: with edges at two depths both penumbrae are wrong, by the ratio of depths.
+// One width for all edges is right for one depth: with edges at two depths both penumbrae are wrong, by the
+// ratio of depths.
 TEST(Smoothies, HaveOneWidthForAllDepths) {
   // Squares far apart, at depths 1 and 1.5.
   const std::vector<TriangleMesh> two{testing::rectangle(0, 1, -1, 1, 1.0),

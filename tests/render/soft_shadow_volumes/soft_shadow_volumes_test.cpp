@@ -1,4 +1,5 @@
-// The method soft-shadow-volumes: exact where one silhouette serves the whole light, and wrong where overlap is added.
+// The method soft-shadow-volumes: exact where one silhouette serves the whole light, and wrong where overlap
+// is added.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,8 @@ Values exact(const std::vector<TriangleMesh>& casters, const LightShape& light, 
   return testing::MethodUnderTest("silhouette")(casters, light, receivers, {{"silhouette-tolerance", 0.0}});
 }
 
-/// Receivers at height 2 in a row; the edge of `sheet_from(0)` is projected to twice its place less that of the receiver.
+/// Receivers at height 2 in a row; the edge of `sheet_from(0)` is projected to twice its place less that of
+/// the receiver.
 std::vector<Vec3> row(double low, double high) {
   std::vector<Vec3> points;
   for (double x = low; x < high; x += 0.05) points.emplace_back(x, 0.3, 2.0);
@@ -56,7 +58,8 @@ TEST(SoftShadowVolumes, OfRectanglesAreExactBesideAnEdge) {
   }
 }
 
-// A flat convex caster, and a box under a light that is narrower than its top: all of the light sees one silhouette.
+// A flat convex caster, and a box under a light that is narrower than its top: all of the light sees one
+// silhouette.
 TEST(SoftShadowVolumes, AreExactForOneConvexCasterWithOneSilhouette) {
   Random random(5);
   const std::vector<TriangleMesh> triangle{

@@ -1,5 +1,5 @@
-// Random casters and lights for solids: bodies and loose triangles that touch, cross and enclose each other, lights near, far and
-// infinitely far, some of them in the middle of it all.
+// Random casters and lights for solids: bodies and loose triangles that touch, cross and enclose each other,
+// lights near, far and infinitely far, some of them in the middle of it all.
 #pragma once
 
 #include <glm/geometric.hpp>

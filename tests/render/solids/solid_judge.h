@@ -49,8 +49,8 @@ struct SolidFigures {
   std::size_t wrong = 0;
   std::optional<Vec3> example;
   double worst = 0.0;  ///< fraction of the light
-  /// Of the points that are not near the surface: in the region, and of these (umbra) not inside, or (penumbra) inside without
-  /// being in the region.
+  /// Of the points that are not near the surface: in the region, and of these (umbra) not inside, or
+  /// (penumbra) inside without being in the region.
   std::size_t region = 0, missed = 0, surplus = 0;
 };
 

@@ -1,4 +1,5 @@
-// Solids whose shape is known: levels in closed form, tips, tunnels, casters that join, and casters in the light's plane.
+// Solids whose shape is known: levels in closed form, tips, tunnels, casters that join, and casters in the
+// light's plane.
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -43,8 +44,8 @@ TEST(SolidShapes, HalfOfTheLightBesideAHalfPlane) {
   EXPECT_LT(farthest, h);
 }
 
-/// Below the sphere, on the axis, the sphere hides a disk of radius ρ = (D + d)R/√(d² - R²) around the light's center. Returns the
-/// depth d at which ρ is a given radius.
+/// Below the sphere, on the axis, the sphere hides a disk of radius ρ = (D + d)R/√(d² - R²) around the
+/// light's center. Returns the depth d at which ρ is a given radius.
 double depth_where(double rho, double sphere, double distance) {
   double low = sphere, high = 100.0;
   for (int i = 0; i < 200; ++i) {
@@ -105,7 +106,8 @@ TEST(SolidShapes, ACasterThroughTheLightsPlaneCastsInFrontOfIt) {
   }
 }
 
-/// A turned box is convex but for rounding. What is convex within it has corners some units in the last place apart.
+/// A turned box is convex but for rounding. What is convex within it has corners some units in the last place
+/// apart.
 TEST(SolidShapes, UmbrasOfTurnedBoxesHaveNoTrianglesOfTheSizeOfRounding) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -49,7 +49,8 @@ TEST_P(Solids, AreSoundAndOnTheSafeSide) {
         .count = 100'000, .box = bounds_of(solid.mesh.positions), .near = solid.tolerance, .samples = 48};
     const SolidFigures safe = judge_solid(solid.mesh, umbra, oracle, light, circular, points);
     EXPECT_EQ(safe.wrong, 0u) << "worst " << safe.worst;
-    // Few samples take points that see little of the light for hidden ones, and those that see nearly all for lit ones.
+    // Few samples take points that see little of the light for hidden ones, and those that see nearly all for
+    // lit ones.
     points.count = 6'000;
     points.samples = 1'024;
     const SolidFigures close = judge_solid(solid.mesh, umbra, oracle, light, circular, points);

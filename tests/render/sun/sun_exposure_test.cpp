@@ -1,4 +1,5 @@
-// The sun over time: contacts against rays in double (tests/oracle), sunrise against the sun's elevation, arrays of lights.
+// The sun over time: contacts against rays in double (tests/oracle), sunrise against the sun's elevation,
+// arrays of lights.
 #include "penumbra/render/sun/sun_exposure.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +44,8 @@ std::vector<SunContact> contacts_of_a_day(SunExposure& sun, double step) {
   return all;
 }
 
-/// The share of the sun's disk above the ground that the oracle finds unhidden: 16,384 rays, of which 20 are within a second's way of
-/// the limb.
+/// The share of the sun's disk above the ground that the oracle finds unhidden: 16,384 rays, of which 20 are
+/// within a second's way of the limb.
 double oracle_seen(const oracle::Oracle& oracle, const Vec3& point, double time) {
   return oracle.visibility(point, {0, 1, 0}, {}, sun_light(sun_position(time, kBerlin.site), kBerlin.axes),
                            16384, 7);

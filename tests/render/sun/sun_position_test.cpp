@@ -24,8 +24,9 @@ double seconds_between(const Vec3& a, const Vec3& b) {
   return 2.0 * std::asin(0.5 * glm::length(a - b)) / kDegree * 3600.0;
 }
 
-// I. Reda, A. Andreas, "Solar Position Algorithm for Solar Radiation Applications", NREL/TP-560-34302 (2008), appendix A.5:
-// 17 October 2003, 12:30:30, 7 hours behind UTC. The observer's height, 1,830 m, changes the parallax by .003".
+// I. Reda, A. Andreas, "Solar Position Algorithm for Solar Radiation Applications", NREL/TP-560-34302 (2008),
+// appendix A.5: 17 October 2003, 12:30:30, 7 hours behind UTC. The observer's height, 1,830 m, changes the
+// parallax by .003".
 TEST(SunPosition, ExampleOfTheSolarPositionAlgorithm) {
   const SunPosition sun = sun_position(1066419030.0, {.latitude = 39.742476,
                                                       .longitude = -105.1786,

@@ -1,4 +1,5 @@
-// The method variance: exact for what Chebyshev's bound is exact for, a flat blocker and floor parallel to a rectangle.
+// The method variance: exact for what Chebyshev's bound is exact for, a flat blocker and floor parallel to a
+// rectangle.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -63,7 +63,8 @@ TEST(ViewSamples, AreTheReferenceForTrianglesThatAreNoSurface) {
   expect_ties_only(off, "soup");
 }
 
-// Rays in double that share no code with the method or with the reference's rays, to the same points of the light.
+// Rays in double that share no code with the method or with the reference's rays, to the same points of the
+// light.
 TEST(ViewSamples, CountTheSamplesThatExactRaysReach) {
   constexpr int kSamples = 64;
   const Scene scene = testing::data_scene("boxes-large");

@@ -20,8 +20,8 @@ std::vector<FaceId> folds_of(const TriangleMesh& mesh) {
   return detail::faces_of_inverted_folds(mesh, component, detail::FaceTree(mesh, component.faces));
 }
 
-/// A sphere whose lowest point is pushed up, and if `height` is above 2 through the top: what sticks out there is inside
-/// out.
+/// A sphere whose lowest point is pushed up, and if `height` is above 2 through the top: what sticks out
+/// there is inside out.
 TriangleMesh pushed_sphere(double height) {
   const TriangleMesh sphere = make_icosphere(Vec3(0.0), 1.0, 4);
   std::vector<Vec3> positions(sphere.positions().begin(), sphere.positions().end());

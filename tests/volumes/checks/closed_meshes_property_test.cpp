@@ -1,7 +1,8 @@
-// Every closed mesh of data/ under a disk and three suns with many points, half of them within 1e-3 scene units of a
-// produced surface: no point that is not fully lit is outside of the penumbra volume (by triangles, in rationals where
-// doubles leave doubt, and by rays of tests/oracle), and from no point in the umbra volume does any ray of tests/oracle
-// reach the light. Meshes are scaled to radius 1. PENUMBRA_LONG=1 in the environment asks for thirty times the points.
+// Every closed mesh of data/ under a disk and three suns with many points, half of them within 1e-3 scene
+// units of a produced surface: no point that is not fully lit is outside of the penumbra volume (by
+// triangles, in rationals where doubles leave doubt, and by rays of tests/oracle), and from no point in the
+// umbra volume does any ray of tests/oracle reach the light. Meshes are scaled to radius 1. PENUMBRA_LONG=1
+// in the environment asks for thirty times the points.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -94,8 +95,8 @@ class UmbraCheck {
   }
 
  private:
-  /// A face hides nothing from what lies on it, so O jumps there, and the umbra volume reaches up to it. x lies in the
-  /// face's plane as far as double can tell.
+  /// A face hides nothing from what lies on it, so O jumps there, and the umbra volume reaches up to it. x
+  /// lies in the face's plane as far as double can tell.
   bool is_on_face(const Vec3& x) const {
     const std::span<const IndexedTriangle> faces = case_.mesh.triangles();
     return std::any_of(faces.begin(), faces.end(), [&](const IndexedTriangle& t) {

@@ -1,7 +1,7 @@
-// Every mesh of data/meshes and data/regressions under twenty-nine lights, degenerate ones among them: either a
-// named error, or volumes that are closed and finite, silhouettes that balance, and neither a point in shadow
-// outside of the penumbra volume nor one inside of the umbra volume that sees light. Large meshes are given
-// only some of the lights, chosen by their name; PENUMBRA_LONG=1 in the environment: all.
+// Every mesh of data/meshes and data/regressions under twenty-nine lights, degenerate ones among them: either
+// a named error, or volumes that are closed and finite, silhouettes that balance, and neither a point in
+// shadow outside of the penumbra volume nor one inside of the umbra volume that sees light. Large meshes are
+// given only some of the lights, chosen by their name; PENUMBRA_LONG=1 in the environment: all.
 #include "tests/volumes/checks/light_poses.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // What the predicates have to answer, in rationals: nothing here is shared with the library.
 //
-// w leads from a to the light's center; of a distant light it is the direction -m, and its rim is -m + r|m|e with unit
-// vectors e perpendicular to m.
+// w leads from a to the light's center; of a distant light it is the direction -m, and its rim is -m + r|m|e
+// with unit vectors e perpendicular to m.
 #pragma once
 
 #include <gtest/gtest.h>

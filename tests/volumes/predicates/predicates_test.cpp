@@ -127,8 +127,8 @@ TEST(DistantLight, FacesSeeAllNoneOrPart) {
 }
 
 TEST(DistantLight, TangencyIsMixedAndOneUlpDecides) {
-  // The plane through the y axis and the rim's direction (3/4, 0, 1) touches the disk. A face in it that falls off
-  // less steeply towards +x sees all of the disk.
+  // The plane through the y axis and the rim's direction (3/4, 0, 1) touches the disk. A face in it that
+  // falls off less steeply towards +x sees all of the disk.
   const auto face_to = [](double z, const Vec3& direction) {
     return classify_face({0, 0, 0}, {3, 0, z}, {0, 1, 0}, sun(direction));
   };

@@ -1,4 +1,5 @@
-// Surfaces of random grids, with vertices anywhere on their edges: sound, and still so when they are simplified.
+// Surfaces of random grids, with vertices anywhere on their edges: sound, and still so when they are
+// simplified.
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>

@@ -33,7 +33,8 @@ class CasterTree {
     bool in_front;
   };
 
-  /// Faces on or behind the light's plane are left out. Copies what it needs. Cost O(F log F), on all cores but for the tree.
+  /// Faces on or behind the light's plane are left out. Copies what it needs. Cost O(F log F), on all cores
+  /// but for the tree.
   CasterTree(std::span<const TriangleMesh> casters, const CircularLight& light);
 
   std::span<const Face> faces() const { return faces_; }
@@ -42,9 +43,11 @@ class CasterTree {
   std::size_t vertex_count() const { return vertices_; }
   const Bounds& bounds() const { return bounds_; }
 
-  /// No face meets the shaft. `likely`: a face to try first; set to the one that was found. Cost O(log F + faces nearby).
+  /// No face meets the shaft. `likely`: a face to try first; set to the one that was found. Cost O(log F +
+  /// faces nearby).
   bool is_clear(const LightShaft& shaft, std::uint32_t& likely) const;
-  /// Faces whose inside the segment crosses, by exact signs. `clean`: false where it touches an edge or lies in a face.
+  /// Faces whose inside the segment crosses, by exact signs. `clean`: false where it touches an edge or lies
+  /// in a face.
   void crossings(const Vec3& from, const Vec3& to, std::vector<Crossing>& found, bool& clean) const;
 
  private:

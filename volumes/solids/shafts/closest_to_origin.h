@@ -9,8 +9,8 @@ namespace penumbra::detail {
 
 class ClosestToOrigin {
  public:
-  /// Adds a corner and drops those that the closest point does not need. False where the origin is inside of the simplex,
-  /// or the corner is there already.
+  /// Adds a corner and drops those that the closest point does not need. False where the origin is inside of
+  /// the simplex, or the corner is there already.
   bool add(const Vec3& corner);
   /// The closest point.
   const Vec3& point() const { return point_; }

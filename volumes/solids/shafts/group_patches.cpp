@@ -8,7 +8,8 @@
 namespace penumbra::detail {
 namespace {
 
-// Speed. Larger patches are given up, and those of which a set may meet so many faces or has to look at so many edges.
+// Speed. Larger patches are given up, and those of which a set may meet so many faces or has to look at so
+// many edges.
 constexpr std::size_t kMostFaces = 4000, kMostNear = 64, kMostRim = 256;
 /// Speed: so many patches are kept.
 constexpr std::size_t kMostPatches = 3;

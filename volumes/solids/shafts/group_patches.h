@@ -1,8 +1,9 @@
 // Solids: patches of casters that may keep each of several sets from a light (hidden_proof.h).
 //
-// In the shaft of the group's hull a patch grows from a face between its middle and the light. It ends where nothing of it can meet
-// the shaft, and at edges between faces of different classes that miss the shaft of the middle. Of the first kind of its boundary all
-// parts of the hull are free. The second kind is looked at for each set: where such an edge meets its shaft, the patch grows on.
+// In the shaft of the group's hull a patch grows from a face between its middle and the light. It ends where
+// nothing of it can meet the shaft, and at edges between faces of different classes that miss the shaft of
+// the middle. Of the first kind of its boundary all parts of the hull are free. The second kind is looked at
+// for each set: where such an edge meets its shaft, the patch grows on.
 #pragma once
 
 #include <span>

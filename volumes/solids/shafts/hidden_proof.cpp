@@ -52,9 +52,9 @@ void HiddenProof::add(std::uint32_t face) {
   }
 }
 
-/// Adds faces until the patch's boundary misses the shaft. `base`: faces that belong to the patch. `opposite`: where one of these faces
-/// would join it, the patch is given up. False where T meets the patch, its boundary cannot be found, or its number of crossings
-/// will be 0.
+/// Adds faces until the patch's boundary misses the shaft. `base`: faces that belong to the patch.
+/// `opposite`: where one of these faces would join it, the patch is given up. False where T meets the patch,
+/// its boundary cannot be found, or its number of crossings will be 0.
 bool HiddenProof::grow(const LightShaft& shaft, const GroupPatches::Patch* base,
                        const GroupPatches::Patch* opposite) {
   const auto faces = tree_.faces();
@@ -88,7 +88,8 @@ int HiddenProof::sum_in(const GroupPatches::Patch& patch) const {
   return sum;
 }
 
-/// Whether a patch that begins with one of the group's keeps T from D. kUnknown: T has no number of crossings of them but 0.
+/// Whether a patch that begins with one of the group's keeps T from D. kUnknown: T has no number of crossings
+/// of them but 0.
 HiddenProof::Answer HiddenProof::by_group(const LightShaft& shaft, bool thorough) {
   const auto faces = tree_.faces();
   const auto may_meet = [&](std::uint32_t f) {

@@ -1,16 +1,17 @@
 // Solids: proofs that a convex set T sees nothing of a light D.
 //
-// Take the faces that meet the shaft conv(T ∪ D) and hang together there, a patch. Its boundary lies outside of the shaft.
-// Where T and D do not meet the patch, the signed number of its crossings is the same for all segments from T to D: it can
-// change only where a segment passes over the boundary or an end passes through the patch; at folds two crossings of opposite
-// signs come or go. If that number is not 0 for one segment, every segment meets the patch, and T is in umbra. Edges of
-// other layers in front or behind do not matter.
+// Take the faces that meet the shaft conv(T ∪ D) and hang together there, a patch. Its boundary lies outside
+// of the shaft. Where T and D do not meet the patch, the signed number of its crossings is the same for all
+// segments from T to D: it can change only where a segment passes over the boundary or an end passes through
+// the patch; at folds two crossings of opposite signs come or go. If that number is not 0 for one segment,
+// every segment meets the patch, and T is in umbra. Edges of other layers in front or behind do not matter.
 //
-// A patch ends as soon as it can: at edges between faces of different classes (AllFront, Mixed, NoneFront) that miss the shaft.
-// So it stays on the side of a smooth body that faces the light, whose crossings do not cancel with those of its back.
+// A patch ends as soon as it can: at edges between faces of different classes (AllFront, Mixed, NoneFront)
+// that miss the shaft. So it stays on the side of a smooth body that faces the light, whose crossings do not
+// cancel with those of its back.
 //
-// Sets that lie together have nearly the same patch. So patches are found once for the hull of several sets (GroupPatches); those
-// of each set begin with them.
+// Sets that lie together have nearly the same patch. So patches are found once for the hull of several sets
+// (GroupPatches); those of each set begin with them.
 #pragma once
 
 #include <vector>
@@ -24,7 +25,8 @@ class HiddenProof {
  public:
   HiddenProof(const CasterTree& tree, const CircularLight& light);
 
-  /// Parts of the hull of these points follow, at most LightShaft::kMostPoints, in front of the light's plane. None: of no hull.
+  /// Parts of the hull of these points follow, at most LightShaft::kMostPoints, in front of the light's
+  /// plane. None: of no hull.
   void begin_group(std::span<const Vec3> hull);
   struct Effort {
     /// How often a triangle may be divided into four.

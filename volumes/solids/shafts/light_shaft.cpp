@@ -54,7 +54,8 @@ LightShaft::LightShaft(const CircularLight& light, const LightFrame& frame, std:
     radius_ = lambda * light.radius;
     kept_ = 1.0 - lambda;
   }
-  // Side k touches T and the end: normal d + σm with the least σ at which T reaches as far along it as the end.
+  // Side k touches T and the end: normal d + σm with the least σ at which T reaches as far along it as the
+  // end.
   const double height = -glm::dot(end_, axis_);
   for (int k = 0; k < kSides; ++k) {
     const Vec3 d = kDirections.x[k] * frame.u + kDirections.y[k] * frame.v;
@@ -101,9 +102,9 @@ bool LightShaft::is_beyond_a_side(const std::array<Vec3, 3>& triangle) const {
   });
 }
 
-/// E. Gilbert, D. Johnson, S. Keerthi, "A fast procedure for computing the distance between complex objects in
-/// three-dimensional space" (1988), stopped at the first direction that separates. That direction is the proof; how it was
-/// found does not matter.
+/// E. Gilbert, D. Johnson, S. Keerthi, "A fast procedure for computing the distance between complex objects
+/// in three-dimensional space" (1988), stopped at the first direction that separates. That direction is the
+/// proof; how it was found does not matter.
 bool LightShaft::is_separate(const std::array<Vec3, 3>& triangle, bool base_only) const {
   const double touching = kTouching / kMargin * margin_;
   Vec3 v = (triangle[0] + triangle[1] + triangle[2]) / 3.0 - points_[0];

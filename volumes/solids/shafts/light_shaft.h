@@ -1,11 +1,12 @@
-// Solids: the shaft of a convex set T of points and a circular light D, conv(T ∪ D): all segments that join the two.
+// Solids: the shaft of a convex set T of points and a circular light D, conv(T ∪ D): all segments that join
+// the two.
 //
-// A face that misses the shaft of T hides nothing from any point of T, and a T whose shaft no face meets is wholly lit.
-// That is exact, since the union of all segments between two convex sets is the hull of both.
+// A face that misses the shaft of T hides nothing from any point of T, and a T whose shaft no face meets is
+// wholly lit. That is exact, since the union of all segments between two convex sets is the hull of both.
 //
-// Beyond all casters the shaft is cut off: with the light's center c, its height H0 over T's first point o, and
-// λ = min(1, 2·extent/H0), it ends in (1 - λ)T + λD. Numbers then are as large as casters are, at any distance of the light;
-// a distant light is the limit λ = 0.
+// Beyond all casters the shaft is cut off: with the light's center c, its height H0 over T's first point o,
+// and λ = min(1, 2·extent/H0), it ends in (1 - λ)T + λD. Numbers then are as large as casters are, at any
+// distance of the light; a distant light is the limit λ = 0.
 #pragma once
 
 #include <array>
@@ -21,18 +22,19 @@ class LightShaft {
   static constexpr int kMostPoints = 8;
   static constexpr int kSides = 16;
 
-  /// T is the hull of the points, 1 to kMostPoints of them, strictly in front of the light's plane. `extent`: nothing that is
-  /// asked about lies farther from them.
+  /// T is the hull of the points, 1 to kMostPoints of them, strictly in front of the light's plane. `extent`:
+  /// nothing that is asked about lies farther from them.
   LightShaft(const CircularLight& light, const LightFrame& frame, std::span<const Vec3> points,
              double extent);
 
   /// True only where the box lies outside, by a plane that bounds the shaft. May miss that.
   bool misses_box(const Vec3& low, const Vec3& high) const;
-  /// True only where the triangle lies outside: a plane separates it from the shaft by more than rounding. Finds all such
-  /// planes but for those that leave less than 1e-9 of the extent. An edge is a triangle with two equal corners.
+  /// True only where the triangle lies outside: a plane separates it from the shaft by more than rounding.
+  /// Finds all such planes but for those that leave less than 1e-9 of the extent. An edge is a triangle with
+  /// two equal corners.
   bool misses(const Vec3& a, const Vec3& b, const Vec3& c) const;
-  /// As bits, those of some planes that bound the shaft beyond which a point lies. What has points that share a bit misses the
-  /// shaft.
+  /// As bits, those of some planes that bound the shaft beyond which a point lies. What has points that share
+  /// a bit misses the shaft.
   std::uint32_t sides_beyond(const Vec3& p) const;
   /// True only where the point lies in the shaft of the first of T's points, but for rounding.
   bool holds(const Vec3& p) const;

@@ -16,7 +16,8 @@ class VertexPlaces {
     shaft_ = &shaft;
     ++number_;
   }
-  /// True only where an edge lies outside of the shaft; may miss that where neither of its ends is in the shaft.
+  /// True only where an edge lies outside of the shaft; may miss that where neither of its ends is in the
+  /// shaft.
   bool are_outside(std::uint32_t a, const Vec3& at_a, std::uint32_t b, const Vec3& at_b) {
     return (place(a, at_a) & place(b, at_b) & ~kInside) != 0;
   }

@@ -1,8 +1,8 @@
 // Solids: edges of a surface collapse in one of several disjoint boxes.
 //
-// A vertex is free if all triangles around it lie wholly in the box. Edges between free vertices collapse, and the new vertex stays in
-// the box. So triangles of other boxes, which change at the same time, are never met or looked at; those that reach beyond
-// one box do not change.
+// A vertex is free if all triangles around it lie wholly in the box. Edges between free vertices collapse,
+// and the new vertex stays in the box. So triangles of other boxes, which change at the same time, are never
+// met or looked at; those that reach beyond one box do not change.
 #pragma once
 
 #include <queue>
@@ -33,7 +33,8 @@ class BoxCollapses {
   std::size_t run();
 
  private:
-  /// An edge at the time when its cost was found. Later costs are hardly ever less, so that an old cost will do to wait by.
+  /// An edge at the time when its cost was found. Later costs are hardly ever less, so that an old cost will
+  /// do to wait by.
   struct Candidate {
     double cost;
     std::uint32_t a, b;

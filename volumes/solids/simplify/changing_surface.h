@@ -9,8 +9,8 @@
 
 namespace penumbra::detail {
 
-/// Collapses in different places may change it at the same time: each touches only what belongs to the vertices and triangles around its
-/// edge.
+/// Collapses in different places may change it at the same time: each touches only what belongs to the
+/// vertices and triangles around its edge.
 struct ChangingSurface {
   static constexpr std::uint32_t kGone = ~0u;
 

@@ -19,7 +19,8 @@ class CollapsePlanner {
  public:
   explicit CollapsePlanner(const ChangingSurface& surface) : surface_(surface) {}
 
-  /// Nothing where no point on the safe side is near enough. Does not look at what lies beside the edge's triangles.
+  /// Nothing where no point on the safe side is near enough. Does not look at what lies beside the edge's
+  /// triangles.
   std::optional<CollapsePlan> plan_for(std::uint32_t a, std::uint32_t b);
 
  private:

@@ -12,8 +12,8 @@ namespace penumbra::detail {
 /// Boxes that have no point in common: of each axis they hold the low end, and not the high one.
 class DisjointBoxes {
  public:
-  /// Space is cut, across the longest axis, where `share` of the points lie below, as long as a box holds more than `most` of them.
-  /// Depends on the points alone. Cost O(n log n).
+  /// Space is cut, across the longest axis, where `share` of the points lie below, as long as a box holds
+  /// more than `most` of them. Depends on the points alone. Cost O(n log n).
   DisjointBoxes(std::span<const Vec3> positions, std::vector<std::uint32_t> points, std::size_t most,
                 double share);
 

@@ -26,9 +26,9 @@ struct IndexedSurface {
   std::vector<IndexedTriangle> triangles;
 };
 
-/// Collapses edges of a closed, oriented two-manifold without self-intersections, those first that change its volume least. It
-/// stays one. With kInward the result lies inside of the surface that was given, but for rounding; with kOutward outside.
-/// Throws Cancelled. Cost O(n log n).
+/// Collapses edges of a closed, oriented two-manifold without self-intersections, those first that change its
+/// volume least. It stays one. With kInward the result lies inside of the surface that was given, but for
+/// rounding; with kOutward outside. Throws Cancelled. Cost O(n log n).
 IndexedSurface simplify(IndexedSurface surface, const SimplifyOptions& options);
 
 }  // namespace penumbra::detail

@@ -1,9 +1,9 @@
 // study, step 2: frames of several settings, timed in turn.
 //
-// What is compared is run in turn: in every round each setting draws one frame, and the default method one beside it, so
-// that a busy minute falls on all of them and ratios are of pairs. Before a timed frame of less than 150 ms
-// the same frame is drawn once without being timed, since buffers and caches were another setting's. Of frames of more than
-// 2 s the first is the one that is timed.
+// What is compared is run in turn: in every round each setting draws one frame, and the default method one
+// beside it, so that a busy minute falls on all of them and ratios are of pairs. Before a timed frame of less
+// than 150 ms the same frame is drawn once without being timed, since buffers and caches were another
+// setting's. Of frames of more than 2 s the first is the one that is timed.
 #pragma once
 
 #include <optional>
@@ -40,13 +40,14 @@ struct Quartiles {
 };
 Quartiles quartiles_of(std::vector<double> values);
 
-/// One warm-up frame each, then `rounds` rounds, where the warm-up frame took less than 2 s; up to three times as many of those whose ratios to the default method's frame still differ,
-/// between their quartiles, by more than a tenth of the median. `renderer` has the case's scene. Throws Cancelled.
+/// One warm-up frame each, then `rounds` rounds, where the warm-up frame took less than 2 s; up to three
+/// times as many of those whose ratios to the default method's frame still differ, between their quartiles,
+/// by more than a tenth of the median. `renderer` has the case's scene. Throws Cancelled.
 std::vector<Measured> measure_in_turn(Renderer& renderer, const StudyView& view,
                                       std::span<const Setting> settings, int rounds, TooLong& too_long);
 
-/// Largest resident size, in MiB, of a program of its own that draws one frame: `penumbra render` with this scene, size and
-/// setting. Nothing where that program could not be run.
+/// Largest resident size, in MiB, of a program of its own that draws one frame: `penumbra render` with this
+/// scene, size and setting. Nothing where that program could not be run.
 std::optional<double> peak_memory(const std::string& scene_path, const StudyView& view,
                                   const Setting& setting);
 

@@ -16,8 +16,8 @@ class TooLong {
   explicit TooLong(double limit_ms) : limit_ms_(limit_ms) {}
 
   void saw(const Setting& setting, double frame_ms);
-  /// Why this setting is left out: one of the same method took too long, none of whose numbers (counts and sizes) is larger and whose other
-  /// options are the same. Nothing where there is none.
+  /// Why this setting is left out: one of the same method took too long, none of whose numbers (counts and
+  /// sizes) is larger and whose other options are the same. Nothing where there is none.
   std::optional<std::string> why_not(const Setting& setting) const;
 
  private:

@@ -28,8 +28,8 @@ void add_picture(json& pictures, const std::filesystem::path& folder, const json
   pictures[name] = base64_of(std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
-/// Keys of the rows whose pictures are shown at full size: the defaults, and those than which none of the same case is both
-/// faster and more accurate; none of cases that show how cost grows.
+/// Keys of the rows whose pictures are shown at full size: the defaults, and those than which none of the
+/// same case is both faster and more accurate; none of cases that show how cost grows.
 std::set<std::string> large_pictures(const StudyRecord& record) {
   std::map<std::string, std::vector<const json*>> by_case;
   for (const json& row : record.rows())

@@ -1,5 +1,5 @@
-// study, step 5: DIR/index.html, one page that needs nothing else: numbers, pictures, styles, scripts and the plotting
-// library (uPlot, MIT license) are in it.
+// study, step 5: DIR/index.html, one page that needs nothing else: numbers, pictures, styles, scripts and the
+// plotting library (uPlot, MIT license) are in it.
 #pragma once
 
 #include <string>

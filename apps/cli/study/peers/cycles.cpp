@@ -72,8 +72,9 @@ std::vector<float> read_white(const std::filesystem::path& path, const Image& ex
   return image.at("G");
 }
 
-/// Of one setting's two pictures. Where points of the light weigh alike, one that is above the horizon and that nothing hides
-/// adds the same everywhere: the most that is found. Points below the horizon add nothing to either picture.
+/// Of one setting's two pictures. Where points of the light weigh alike, one that is above the horizon and
+/// that nothing hides adds the same everywhere: the most that is found. Points below the horizon add nothing
+/// to either picture.
 std::vector<float> visibility_of(const PeerCase& given, const Setting& setting,
                                  const std::filesystem::path& folder) {
   const std::string name = name_of(setting) + ".exr";

@@ -1,5 +1,5 @@
-// study --peers: what people use instead, on the same pixels. Each peer is another program, which may be missing or fail: then
-// it has no rows, and the study goes on.
+// study --peers: what people use instead, on the same pixels. Each peer is another program, which may be
+// missing or fail: then it has no rows, and the study goes on.
 #pragma once
 
 #include <filesystem>
@@ -43,12 +43,13 @@ std::vector<Peer> all_peers(const std::filesystem::path& three = {});
 /// Whether it has lights of this kind. None has rectangles.
 bool takes(const Peer& peer, const LightShape& light);
 
-/// Shadowed over unshadowed, one a pixel, at most 1, times what the horizon leaves of the light; 0 where the unshadowed
-/// picture is dark. All of one size.
+/// Shadowed over unshadowed, one a pixel, at most 1, times what the horizon leaves of the light; 0 where the
+/// unshadowed picture is dark. All of one size.
 std::vector<float> visibility_of_ratio(std::span<const float> shadowed, std::span<const float> unshadowed,
                                        std::span<const float> horizon);
 
-/// What a row needs: the case's picture with that visibility where there is a surface. `stage` is the name of its times.
+/// What a row needs: the case's picture with that visibility where there is a surface. `stage` is the name of
+/// its times.
 Measured peer_result(const PeerCase& given, std::vector<float> visibility, std::vector<double> frames,
                      const std::string& stage, const std::string& renderer);
 

@@ -107,7 +107,8 @@ double trace(const fs::path& scene, const fs::path& picture, const PeerCase& giv
   return trace_ms(*log);
 }
 
-/// Milliseconds of as many renderings as take some seconds, at most the case's rounds; of the first one where it takes longer.
+/// Milliseconds of as many renderings as take some seconds, at most the case's rounds; of the first one where
+/// it takes longer.
 std::vector<double> trace_some(const fs::path& scene, const fs::path& picture, const PeerCase& given) {
   constexpr double kMostMilliseconds = 4'000.0;
   std::vector<double> frames{trace(scene, picture, given)};

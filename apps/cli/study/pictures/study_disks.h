@@ -1,7 +1,8 @@
 // study: the light as pixels see it, for the page's probe.
 //
-// Of every fourth pixel that the page shows, across and down, a square of 12 × 12 points of the light around its center: white
-// where a ray from the pixel reaches it, else black. One lossless WebP a case, the squares side by side as their pixels are.
+// Of every fourth pixel that the page shows, across and down, a square of 12 × 12 points of the light around
+// its center: white where a ray from the pixel reaches it, else black. One lossless WebP a case, the squares
+// side by side as their pixels are.
 #pragma once
 
 #include <optional>

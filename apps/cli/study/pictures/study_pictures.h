@@ -1,13 +1,15 @@
-// study: pictures that the page puts together. The page shows a setting by what it is off from the reference, so that one
-// small file a setting is enough.
+// study: pictures that the page puts together. The page shows a setting by what it is off from the reference,
+// so that one small file a setting is enough.
 //
-// Every file is a lossless WebP of 8-bit RGB at up to 320 pixels a row: of larger pictures every second pixel, or third, and so
-// on, as they are, not averaged.
+// Every file is a lossless WebP of 8-bit RGB at up to 320 pixels a row: of larger pictures every second
+// pixel, or third, and so on, as they are, not averaged.
 //
-//   CASE.lit.webp            sRGB of the scene without shadows, at the exposure that makes its bright parts white
-//   CASE.reference.webp      red and green: V of the reference times 65,535, high byte and low byte; blue: V without shadows
-//   CASE-SETTING.webp        red: 128 + 127 sign(e) √|e| of the error e of V, 1 to 255 (0: no surface); green: 1 where
-//                            certified lit, 2 where in umbra, times 100; blue: 0
+//   CASE.lit.webp            sRGB of the scene without shadows, at the exposure that makes its bright parts
+//                            white
+//   CASE.reference.webp      red and green: V of the reference times 65,535, high byte and low byte; blue: V
+//                            without shadows
+//   CASE-SETTING.webp        red: 128 + 127 sign(e) √|e| of the error e of V, 1 to 255 (0: no surface);
+//                            green: 1 where certified lit, 2 where in umbra, times 100; blue: 0
 //   CASE-SETTING.small.webp  of that every second pixel, across and down
 #pragma once
 

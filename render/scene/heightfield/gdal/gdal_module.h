@@ -1,5 +1,5 @@
-// The module that reads rasters by GDAL: a library of its own, opened when a heightfield is read, because starting GDAL and the hundred libraries that it
-// links takes a program long.
+// The module that reads rasters by GDAL: a library of its own, opened when a heightfield is read, because
+// starting GDAL and the hundred libraries that it links takes a program long.
 #pragma once
 
 #include <string>

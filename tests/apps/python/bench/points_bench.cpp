@@ -1,8 +1,11 @@
 // The C++ side of compare.py.
-// usage: penumbra_points_bench time SCENE POINTS CALLS METHOD SAMPLES OUT      prints wall and CPU milliseconds of each call
-//        penumbra_points_bench judge SCENE POINTS RAYS OUT                      the same values by rays in double (tests/oracle)
+// usage: penumbra_points_bench time SCENE POINTS CALLS METHOD SAMPLES OUT      prints wall and CPU
+//                                                                              milliseconds of each call
+//        penumbra_points_bench judge SCENE POINTS RAYS OUT                      the same values by rays in
+//                                                                               double (tests/oracle)
 //
-// POINTS and OUT are raw arrays: doubles x y z, and one float a point. The scene's first light is asked about.
+// POINTS and OUT are raw arrays: doubles x y z, and one float a point. The scene's first light is asked
+// about.
 #include <tbb/parallel_for.h>
 
 #include <chrono>

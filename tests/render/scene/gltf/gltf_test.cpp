@@ -1,5 +1,5 @@
-// glTF files as scenes: places, colors, normals, lights and cameras against tests/data/gltf/make.py, which computes them by itself (judge.mjs
-// there compares three.js with it); what is refused; random damage.
+// glTF files as scenes: places, colors, normals, lights and cameras against tests/data/gltf/make.py, which
+// computes them by itself (judge.mjs there compares three.js with it); what is refused; random damage.
 #include <gtest/gtest.h>
 
 #include <algorithm>

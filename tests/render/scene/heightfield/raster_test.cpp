@@ -1,4 +1,5 @@
-// Heightfields that GDAL reads: tests/data/terrain/make.py wrote the rasters by GDAL's Python module. Built where GDAL is.
+// Heightfields that GDAL reads: tests/data/terrain/make.py wrote the rasters by GDAL's Python module. Built
+// where GDAL is.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,5 @@
-// What terrain hides: a ridge in closed form; tiles against one mesh written by hand, and against rays in double.
+// What terrain hides: a ridge in closed form; tiles against one mesh written by hand, and against rays in
+// double.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,8 +23,9 @@ double beyond(double d) {
   return 0.5 + (std::asin(d) + d * std::sqrt(1.0 - d * d)) / std::numbers::pi;
 }
 
-/// A level plain with a ridge along x at z = 0, 5 high, and the sun behind it at 20 degrees. In the plane across the sun the ridge is a level line, as far
-/// above the sun's center as the tangent of the angle between both is long.
+/// A level plain with a ridge along x at z = 0, 5 high, and the sun behind it at 20 degrees. In the plane
+/// across the sun the ridge is a level line, as far above the sun's center as the tangent of the angle
+/// between both is long.
 TEST_F(Terrain, ASunOverARidgeIsTheClosedForm) {
   std::vector<std::vector<float>> heights(41, std::vector<float>(41, 0.0f));
   heights[8] = std::vector<float>(41, 5.0f);

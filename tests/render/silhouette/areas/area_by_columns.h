@@ -1,5 +1,6 @@
-// How much of the disk nothing hides, by columns: the yardstick of areas. It shares nothing with render/: it looks
-// along columns, not rows, finds crossings among all pairs, clips nothing, and integrates by Gauss' rule.
+// How much of the disk nothing hides, by columns: the yardstick of areas. It shares nothing with render/: it
+// looks along columns, not rows, finds crossings among all pairs, clips nothing, and integrates by Gauss'
+// rule.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +47,8 @@ class AreaByColumns {
   }
 
  private:
-  /// A segment that is not upright, from left to right; `change` is that of the number of faces upwards across it.
+  /// A segment that is not upright, from left to right; `change` is that of the number of faces upwards
+  /// across it.
   struct Line {
     Real left, right, y, slope;
     int change;
@@ -61,7 +63,8 @@ class AreaByColumns {
         {a.x, b.x, a.y, (Real(b.y) - Real(a.y)) / (Real(b.x) - Real(a.x)), ahead ? s.jump : -s.jump});
   }
 
-  /// x = sin(angle) of ends, crossings and of where lines and the chord meet the rim; none more than .1 apart.
+  /// x = sin(angle) of ends, crossings and of where lines and the chord meet the rim; none more than .1
+  /// apart.
   std::vector<Real> make_angles() const {
     std::vector<Real> places{-1.0L, 1.0L};
     const auto meet_rim = [&](Real y0, Real slope) {  // y = y0 + slope x

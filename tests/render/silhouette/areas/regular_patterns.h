@@ -1,5 +1,6 @@
-// Blinds, fences, gratings, combs and moirés in the plane of the disk, chosen against the rows of areas/rows.h: along
-// and across them and beside, with periods that are multiples and fractions of their distances or nearly so.
+// Blinds, fences, gratings, combs and moirés in the plane of the disk, chosen against the rows of
+// areas/rows.h: along and across them and beside, with periods that are multiples and fractions of their
+// distances or nearly so.
 #pragma once
 
 #include <array>

@@ -22,7 +22,8 @@ using penumbra::testing::random_horizon;
 using penumbra::testing::random_polygons;
 
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max() / 4;
-/// Ends of intervals are multiples of 2^-26; some hundred intervals at a height err by as much as chance adds up.
+/// Ends of intervals are multiples of 2^-26; some hundred intervals at a height err by as much as chance adds
+/// up.
 constexpr double kPositions = 3e-7;
 
 struct Swept {

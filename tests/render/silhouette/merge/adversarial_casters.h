@@ -193,8 +193,8 @@ struct Look {
   double light_distance, distance;
 };
 
-/// Receivers on grids in planes across the view, as large as the feature and its penumbra, as these both, and as
-/// the whole caster; and some on the caster.
+/// Receivers on grids in planes across the view, as large as the feature and its penumbra, as these both, and
+/// as the whole caster; and some on the caster.
 inline SurfaceBuffer receivers_past(Random& random, const TriangleMesh& mesh, const Look& look,
                                     const Vec3& light, double small, double large) {
   constexpr int kWidth = 32, kRows = 16;

@@ -1,5 +1,5 @@
-// Where merged edges tell a wrong number of faces: the bound on the area, and the points at which they are right, against
-// every face.
+// Where merged edges tell a wrong number of faces: the bound on the area, and the points at which they are
+// right, against every face.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -95,8 +95,8 @@ std::vector<Segment> segments_of(const Band& band, const Vec3& x) {
   return out;
 }
 
-/// How many faces more lie before a point of the disk than before its center, by the edges between the two. The band
-/// leaves out edges beside the disk, so no way there would do.
+/// How many faces more lie before a point of the disk than before its center, by the edges between the two.
+/// The band leaves out edges beside the disk, so no way there would do.
 int counted_by(const std::vector<Segment>& segments, const glm::dvec2& q) {
   const auto side = [&](const glm::dvec2& p) { return q.x * p.y - q.y * p.x; };
   int count = 0;
@@ -113,7 +113,8 @@ struct Tally {
   std::size_t receivers = 0, wrong = 0, right = 0, free = 0, bounded = 0;
 };
 
-/// A point of the disk: how many faces more than merged edges tell lie before it, and whether that is said to be known.
+/// A point of the disk: how many faces more than merged edges tell lie before it, and whether that is said to
+/// be known.
 struct Point {
   int apart;
   bool is_known;

@@ -73,8 +73,8 @@ TEST(MergedFaces, DoNotHideABumpOfTheLightsSize) {
   EXPECT_EQ(d.contradictions, 0u);
 }
 
-/// The benchmark `merging` has more of them, and larger ones. Those above 40 were moved by .01 to .6 when patches were
-/// judged by means over their whole area.
+/// The benchmark `merging` has more of them, and larger ones. Those above 40 were moved by .01 to .6 when
+/// patches were judged by means over their whole area.
 TEST(MergedFaces, KeepTheirPromiseOnCastersThatAreHardToMerge) {
   std::vector<std::uint64_t> seeds{66, 126, 587, 626, 738, 790, 793, 888, 976, 1156, 1169, 1215, 1322};
   for (std::uint64_t seed = 1; seed <= 40; ++seed) seeds.push_back(seed);

@@ -1,8 +1,9 @@
 // usage: penumbra_judge_points SCENE SAMPLES < POINTS
 //
-// Each line of POINTS is x y z and how much of the scene's first light that point is said to see. Rays in double say what it does see.
-// Prints how many points there are, their RMSE and the largest error, and fails where that is above .01. Points off by more than .004 are
-// judged again by 16 times as many rays: so much of the error is that of the samples (tests/oracle/oracle.h).
+// Each line of POINTS is x y z and how much of the scene's first light that point is said to see. Rays in
+// double say what it does see. Prints how many points there are, their RMSE and the largest error, and fails
+// where that is above .01. Points off by more than .004 are judged again by 16 times as many rays: so much of
+// the error is that of the samples (tests/oracle/oracle.h).
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
