@@ -1,5 +1,5 @@
 // The D-buffer by its options against the oracle: rays in double without offset, contact included.
-#include "apps/cli/comparison.h"
+#include "apps/cli/compare/comparison.h"
 #include "penumbra/render/renderer.h"
 #include "tests/bench/bench_support.h"
 

@@ -1,7 +1,7 @@
 // Methods against the oracle: rays in double without offset, which share nothing with what they judge.
 #include <algorithm>
 
-#include "apps/cli/comparison.h"
+#include "apps/cli/compare/comparison.h"
 #include "penumbra/render/renderer.h"
 #include "tests/bench/bench_support.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/cli/judge.h"
+#include "apps/cli/compare/judge.h"
 #include "tests/render/random_poses.h"
 #include "tests/yardstick/judging.h"
 #include "tests/yardstick/parts.h"

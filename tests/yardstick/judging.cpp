@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "apps/cli/judge.h"
+#include "apps/cli/compare/judge.h"
 
 namespace penumbra::yardstick {
 namespace {

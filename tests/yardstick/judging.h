@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/comparison.h"
+#include "apps/cli/compare/comparison.h"
 #include "penumbra/render/renderer.h"
 #include "tests/yardstick/report.h"
 

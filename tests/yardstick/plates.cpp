@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/cli/judge.h"
+#include "apps/cli/compare/judge.h"
 #include "tests/yardstick/closed_form.h"
 #include "tests/yardstick/judging.h"
 #include "tests/yardstick/parts.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/cli/comparison.h"
+#include "apps/cli/compare/comparison.h"
 #include "apps/cli/study/measure/measure.h"
 #include "apps/cli/study/study_case.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/judge.h"
+#include "apps/cli/compare/judge.h"
 #include "penumbra/render/image/error_figures.h"
 #include "penumbra/render/method.h"
 #include "penumbra/render/plan/plan.h"

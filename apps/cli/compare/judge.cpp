@@ -1,4 +1,4 @@
-#include "apps/cli/judge.h"
+#include "apps/cli/compare/judge.h"
 
 #include <tbb/parallel_for.h>
 

@@ -1,4 +1,4 @@
-#include "apps/cli/compare_picture.h"
+#include "apps/cli/compare/compare_picture.h"
 
 #include <algorithm>
 #include <cmath>

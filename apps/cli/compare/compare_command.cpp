@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/cli/commands.h"
-#include "apps/cli/compare_picture.h"
-#include "apps/cli/comparison.h"
+#include "apps/cli/compare/compare_picture.h"
+#include "apps/cli/compare/comparison.h"
 #include "apps/cli/made_by.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"

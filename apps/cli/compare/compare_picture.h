@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "apps/cli/comparison.h"
+#include "apps/cli/compare/comparison.h"
 #include "apps/common/picture.h"
 
 namespace penumbra::apps {

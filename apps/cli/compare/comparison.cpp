@@ -1,4 +1,4 @@
-#include "apps/cli/comparison.h"
+#include "apps/cli/compare/comparison.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,8 @@
 #include <numeric>
 #include <utility>
 
-#include "apps/cli/judge.h"
+#include "apps/cli/compare/figures.h"
+#include "apps/cli/compare/judge.h"
 #include "apps/common/messages.h"
 #include "penumbra/mesh/error.h"
 #include "render/rays/camera_rays.h"
@@ -25,17 +26,6 @@ constexpr double kMaxDisagreement = 1e-3;
 // Of P, relative to the scene: channels are float, positions double.
 constexpr double kPositionTolerance = 1e-5;
 
-struct Resampling {
-  double fraction;
-  std::size_t at_least;
-  int samples;
-};
-// Of the worst pixels. The oracle's rays take some ten times as long as Embree's.
-constexpr Resampling kByRays{0.02, 1'000, 65'536}, kByOracle{0.0, 300, 32'768};
-// Where p99 is so many times the references' noise only the few worst pixels are sampled again: the
-// maximum's.
-constexpr double kFarAboveNoise = 25.0;
-constexpr std::size_t kFewWorst = 20;
 constexpr int kCertificateSamples = 256;
 // Two references, then the worst pixels again. No seed that a person would give a rendering: against itself a
 // noisy image would look free of error.
@@ -74,73 +64,6 @@ bool same_point(const Image& image, const SurfaceBuffer& surface, std::size_t i,
   if (image.at("object")[i] != static_cast<float>(surface.object[i])) return false;
   const Vec3 point(image.at("P.X")[i], image.at("P.Y")[i], image.at("P.Z")[i]);
   return glm::distance(point, surface.position[i]) <= tolerance;
-}
-
-/// One entry a pixel of the image.
-struct References {
-  std::vector<float> first, second;
-};
-
-/// Traces visibility of pixels: pixels, samples, seed, label.
-using Trace = std::function<std::vector<float>(const std::vector<std::uint32_t>&, int, std::uint64_t,
-                                               const std::string&)>;
-
-std::vector<std::uint32_t> worst_pixels(const std::vector<float>& method, const Comparison& comparison,
-                                        const Resampling& resampling) {
-  std::vector<std::uint32_t> pixels = comparison.penumbra;
-  const auto share =
-      static_cast<std::size_t>(std::ceil(resampling.fraction * static_cast<double>(pixels.size())));
-  const std::size_t count = std::min(pixels.size(), std::max(share, resampling.at_least));
-  const auto error = [&](std::uint32_t i) { return std::abs(method[i] - comparison.reference[i]); };
-  std::partial_sort(pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(count), pixels.end(),
-                    [&](std::uint32_t a, std::uint32_t b) {
-                      const float ea = error(a), eb = error(b);
-                      return ea != eb ? ea > eb : a < b;
-                    });
-  pixels.resize(count);
-  return pixels;
-}
-
-/// Progress on a terminal, unless nobody is to see it.
-Progress shown(ProgressLine& line, bool quiet) {
-  return quiet ? Progress{} : line.callback();
-}
-
-void set_figures(Comparison& comparison, const std::vector<float>& method, const References& references,
-                 bool quiet) {
-  comparison.reference.resize(method.size());
-  for (std::size_t i = 0; i < method.size(); ++i)
-    comparison.reference[i] = 0.5f * references.first[i] + 0.5f * references.second[i];
-  comparison.first = references.first;
-  comparison.second = references.second;
-  comparison.penumbra = true_penumbra(references.first, references.second, comparison.judged);
-  ProgressLine progress("error figures");
-  const auto figures = [&](const std::vector<std::uint32_t>& pixels) {
-    return error_figures(method, references.first, references.second, pixels, shown(progress, quiet));
-  };
-  comparison.all = figures(comparison.judged);
-  comparison.in_penumbra = figures(comparison.penumbra);
-}
-
-// The largest errors are those in which the reference's noise had a share: only p99 and the maximum are
-// corrected, since replacing chosen pixels would bias the means.
-void resample_worst(Comparison& comparison, const std::vector<float>& method, References references,
-                    const Trace& trace, const Resampling& resampling, bool quiet) {
-  const std::vector<std::uint32_t> pixels = worst_pixels(method, comparison, resampling);
-  const std::vector<float> values = trace(pixels, resampling.samples, kSeeds[2], "worst pixels again");
-  for (std::size_t k = 0; k < pixels.size(); ++k)
-    references.first[pixels[k]] = references.second[pixels[k]] = comparison.reference[pixels[k]] = values[k];
-  const auto correct = [&](ErrorFigures& figures, const std::vector<std::uint32_t>& selected) {
-    ProgressLine progress("error figures");
-    const ErrorFigures again =
-        error_figures(method, references.first, references.second, selected, shown(progress, quiet));
-    figures.p99_absolute = again.p99_absolute;
-    figures.max_absolute = again.max_absolute;
-  };
-  correct(comparison.all, comparison.judged);
-  correct(comparison.in_penumbra, comparison.penumbra);
-  comparison.resampled = pixels.size();
-  comparison.resamples = resampling.samples;
 }
 
 /// Of several lights one has to be named.
@@ -257,7 +180,7 @@ void SceneComparison::State::keep_those_of_scene(Comparison& comparison, const I
 std::vector<float> SceneComparison::State::trace(const std::vector<std::uint32_t>& pixels, int samples,
                                                  std::uint64_t seed, const std::string& label) {
   ProgressLine line(label);
-  const Progress progress = shown(line, options_.quiet);
+  const Progress progress = progress_on(line, options_.quiet);
   if (judge_) {
     rays_traced_ += pixels.size() * static_cast<std::size_t>(samples);
     return judge_->visibility(surface_, pixels, samples, seed, progress);
@@ -303,7 +226,7 @@ void SceneComparison::State::check_certificates(Comparison& comparison, const Im
   ProgressLine line("certificates");
   comparison.contradicted = judge_
                                 ->contradicted(surface_, comparison.judged, region, kCertificateSamples,
-                                               kSeeds[2], shown(line, options_.quiet))
+                                               kSeeds[2], progress_on(line, options_.quiet))
                                 .size();
 }
 
@@ -324,14 +247,10 @@ Comparison SceneComparison::State::compare(const Image& image) {
   comparison.samples = options_.samples;
   set_figures(comparison, method, references_, options_.quiet);
   if (options_.resample && !comparison.penumbra.empty()) {
-    Resampling resampling = judge_ ? kByOracle : kByRays;
-    if (comparison.in_penumbra.p99_absolute >=
-        kFarAboveNoise * reference_noise(references_.first, references_.second, comparison.penumbra))
-      resampling = {0.0, kFewWorst, resampling.samples};
-    resample_worst(
-        comparison, method, references_,
-        [this](const auto& pixels, auto... how) { return trace_again(pixels, how...); }, resampling,
-        options_.quiet);
+    const auto again = [this](const std::vector<std::uint32_t>& pixels, int samples) {
+      return trace_again(pixels, samples, kSeeds[2], "worst pixels again");
+    };
+    resample_worst(comparison, method, references_, again, judge_.has_value(), options_.quiet);
   }
   check_certificates(comparison, image);
   const auto now = std::chrono::steady_clock::now();
