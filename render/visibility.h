@@ -1,7 +1,7 @@
 // The one call for visibility: which fraction of a light each receiver sees.
 //
 //   casters     what hides the light, prepared once            (Casters)
-//   light       a disk or a rectangle                          (light/light.h)
+//   light       a disk, near or distant, or a rectangle        (light/light.h)
 //   receivers   points, with or without normals and faces      (receivers/receivers.h)
 //   options     the method and its options                     (method.h)
 //

@@ -14,7 +14,8 @@ namespace penumbra::apps {
 namespace {
 
 constexpr const char* kDescription =
-    "Penumbra: umbra and penumbra volumes, and soft-shadow images, of meshes under a disk light.";
+    "Penumbra: umbra and penumbra volumes, and soft-shadow images, of meshes under disks, the sun and "
+    "rectangles.";
 
 constexpr const char* kFooter =
     R"(A SCENE is a scene file (*.json), a glTF file or a bare mesh (OBJ, PLY, OFF, STL), which gets a floor, a light and a camera.

@@ -52,7 +52,7 @@ void add_picture_options(CLI::App& command, PictureOptions& options) {
   command
       .add_option("--ambient", options.ambient,
                   "Fill light for R G B: the radiance of a sky that nothing hides, 0 for none (0, of a bare "
-                  "mesh 0.14)")
+                  "mesh 0.11)")
       ->check(require_ambient)
       ->type_name("X");
   command

@@ -42,13 +42,17 @@ void bind_camera(py::module_& module) {
 
 eye, target: 3 numbers each, scene units. up: any vector not parallel to the line of sight. fov_y_degrees: vertical field of
 view, above 0 and below 180.)")
-      .def(py::init([](const py::object& eye, const py::object& target, const py::object& up, double fov) {
-             if (!(fov > 0.0 && fov < 180.0))
-               throw UsageError("fov_y_degrees is not between 0 and 180 degrees");
-             return Camera{vector_of(eye, "eye"), vector_of(target, "target"), vector_of(up, "up"), fov};
-           }),
-           py::arg("eye"), py::arg("target"), py::arg("up") = py::make_tuple(0.0, 1.0, 0.0),
-           py::arg("fov_y_degrees") = 40.0)
+      .def(
+          py::init([](const py::object& eye, const py::object& target, const py::object& up, double fov) {
+            if (!(fov > 0.0 && fov < 180.0))
+              throw UsageError("fov_y_degrees is not between 0 and 180 degrees");
+            const Camera camera{vector_of(eye, "eye"), vector_of(target, "target"), vector_of(up, "up"), fov};
+            if (!(detail::sine_between(camera.up, camera.target - camera.eye) >= 1e-9))  // NaN is not
+              throw UsageError("eye equals target, or up is 0 or parallel to the line of sight");
+            return camera;
+          }),
+          py::arg("eye"), py::arg("target"), py::arg("up") = py::make_tuple(0.0, 1.0, 0.0),
+          py::arg("fov_y_degrees") = 40.0)
       .def_property_readonly("eye", [](const Camera& c) { return tuple_of(c.eye); })
       .def_property_readonly("target", [](const Camera& c) { return tuple_of(c.target); })
       .def_property_readonly("up", [](const Camera& c) { return tuple_of(c.up); })

@@ -85,7 +85,8 @@ points: (..., 3) real, scene units; C-ordered float64 is not copied, and must no
 light: a DiskLight, DistantLight or RectangleLight, or the number or name of one of scene.lights; or a list of lights: results then
 have one more axis, the first, and stats are a list.
 normals: as points, unit vectors: what lies below a point's tangent plane is hidden from it. Without normals nothing is.
-method: 'silhouette' (exact areas, the usual), 'auto', 'reference' and 'rays' (samples=256, seed=0), 'hard', 'none'.
+method: 'silhouette' (exact areas, the usual), 'auto', 'reference' and 'rays' (samples=256, seed=1), 'hard', 'none', or any
+other that needs no pixels.
 max_error: RMSE over the penumbra that may be made; the method is then 'auto', which takes the cheapest one that keeps it.
 region: also certificates. stats: also a dict of milliseconds, counts and decisions.
 objects, faces: integers, one a point or one for all: the object, and the row of its F, on which a point lies. That triangle

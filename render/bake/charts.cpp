@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 #include <numbers>
 
@@ -15,6 +16,8 @@ namespace {
 
 /// Overlaps of less than this share of a chart's area are rounding.
 constexpr double kOverlap = 1e-9;
+/// Of a chart's longer side.
+constexpr double kLeastHeight = 1e-16;
 
 /// Counter-clockwise, by monotone chains (Andrew, 1979).
 std::vector<glm::dvec2> convex_hull(std::vector<glm::dvec2> points) {
@@ -149,7 +152,9 @@ class ChartMaker {
       for (glm::dvec2& p : t) box.add(p = turned(p, axis));
     for (FaceUv& t : chart.uv)
       for (glm::dvec2& p : t) p -= box.low;
-    chart.extent = box.size();
+    // Rounding may leave a sliver no height.
+    const glm::dvec2 size = box.size();
+    chart.extent = glm::max(size, glm::dvec2(kLeastHeight * std::max(size.x, size.y)));
   }
 
   const TriangleMesh& mesh_;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "penumbra/mesh/error.h"
+#include "penumbra/render/bake/bake_receivers.h"
 #include "penumbra/render/bake/texture_atlas.h"
 #include "render/bake/uv_overlaps.h"
 
@@ -61,6 +62,7 @@ TextureAtlas given_atlas(const std::vector<SceneObject>& objects, const AtlasOpt
         throw UsageError(named(objects, {i, f}) +
                          " has no texture coordinates from 0 to 1; unwrap the mesh, or choose another set");
       for (glm::dvec2& p : uv) p *= static_cast<double>(options.size);
+      if (face_normal(object.mesh, f) == Vec3(0.0)) uv = {};  // without area: no texel, as in charts
       atlas.uv[i].push_back(uv);
       all.push_back(uv);
       faces.push_back({i, f});

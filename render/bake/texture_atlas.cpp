@@ -77,6 +77,11 @@ double longest_of(const std::vector<Chart>& charts) {
   return longest;
 }
 
+void require_area(const std::vector<Chart>& charts) {
+  if (area_of(charts) > 0.0) return;  // NaN is not
+  throw UsageError("no face is large enough to be put in charts; use another unit of length");
+}
+
 /// The least side of texels, to 1 part in a thousand, with which all charts fit into the square.
 double finest_texel(const std::vector<Chart>& charts, const AtlasOptions& options) {
   const auto fits = [&](double texel) {
@@ -130,7 +135,11 @@ std::vector<Chart> charts_of(const std::vector<SceneObject>& objects, const Atla
 }  // namespace
 
 TextureAtlas make_atlas(const std::vector<SceneObject>& objects, const AtlasOptions& options) {
+  if (!(options.texel >= 0.0)) throw UsageError("the side of a texel is no number from 0 on");
+  if (!(options.chart_degrees >= 0.0 && options.chart_degrees <= 90.0))
+    throw UsageError("the angle of charts is not from 0 to 90 degrees");
   const std::vector<Chart> charts = charts_of(objects, options);
+  require_area(charts);
   const bool is_square = !(options.texel > 0.0);
   const double texel = is_square ? finest_texel(charts, options) : options.texel;
   const int width = is_square ? options.size : width_for(charts, options);

@@ -1,7 +1,7 @@
 // What the light's center sees, for methods that add a penumbra outside of a hard shadow.
 //
 // In: casters, a light, receivers. Out: the coordinates of their maps, and the window that holds casters and
-// outer penumbrae.
+// outer penumbras.
 #pragma once
 
 #include "render/center_view/map_options.h"

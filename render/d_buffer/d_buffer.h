@@ -26,7 +26,7 @@
 // of an edge are known too: the shader follows the boundary as far as it lies in the disk.
 //
 // Everything is drawn and looked up in a space in which every light is a distant one (view/light_space.h),
-// relative to the part of it that the image's receivers and the casters' penumbrae have in common. It is made
+// relative to the part of it that the image's receivers and the casters' penumbras have in common. It is made
 // in double for each frame, and only then rounded to float: neither a light that is far away nor a floor that
 // goes on to the horizon costs digits.
 //

@@ -5,7 +5,7 @@
 //
 // Why. A texel keeps one entry of a kind (or two). Where two boundaries compete, receivers side by side read
 // different ones, and visibility jumps; but on a surface it is continuous, except where something touches the
-// surface. So a jump tells where entries are wrong: leaks, penumbrae of edges that something else hides,
+// surface. So a jump tells where entries are wrong: leaks, penumbras of edges that something else hides,
 // seams between texels' entries.
 //
 // How.

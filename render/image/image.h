@@ -10,7 +10,8 @@
 
 namespace penumbra {
 
-/// Row 0 is at the top. Channel names as in the README: R G B A, visibility, region, object, P.X …, N.X ….
+/// Row 0 is at the top. Channel names as in docs/exr-channels.md: R G B A, visibility, region, object, P.X …,
+/// N.X ….
 struct Image {
   int width = 0, height = 0;
   std::map<std::string, std::vector<float>> channels;  ///< width·height each, row-major

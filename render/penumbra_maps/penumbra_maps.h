@@ -33,7 +33,7 @@ struct PenumbraMapOptions {
 };
 
 /// Requires a light that is no point. The horizon is a factor of its own. Cost O(faces + texels), the
-/// penumbrae's texels, and O(1) a receiver. On all threads; the result does not depend on their number.
+/// penumbras's texels, and O(1) a receiver. On all threads; the result does not depend on their number.
 /// Throws Cancelled.
 MethodResult penumbra_map_visibility(const Scene& scene, const LightShape& light, const Receivers& receivers,
                                      const PenumbraMapOptions& options, bool keep_textures,

@@ -18,7 +18,7 @@ struct Effects {
   /// Off: nothing casts a shadow, no ray is traced. On: shadows are looked for where it is proved that there
   /// are none, too.
   EffectChoice shadows = EffectChoice::kPlanned;
-  /// Off: hard shadows, one ray a receiver. On: penumbrae however narrow; a point light has none.
+  /// Off: hard shadows, one ray a receiver. On: penumbras however narrow; a point light has none.
   EffectChoice penumbra = EffectChoice::kPlanned;
   /// Casters that reach no receiver are left out. On: however few faces they have.
   EffectChoice culling = EffectChoice::kPlanned;
@@ -40,7 +40,7 @@ struct EffectName {
 /// All of them. The method auto has an option effect-NAME for each: planned, on or off.
 inline constexpr std::array<EffectName, 6> kEffects{
     {{"shadows", &Effects::shadows, "Shadows; off: no ray is traced"},
-     {"penumbra", &Effects::penumbra, "Penumbrae; off: hard shadows"},
+     {"penumbra", &Effects::penumbra, "Penumbras; off: hard shadows"},
      {"culling", &Effects::culling, "Casters that reach no receiver are left out"},
      {"certificates", &Effects::certificates, "Receivers without an edge before the light are certified"},
      {"areas", &Effects::areas, "Areas between edges; on: at all receivers, off: at none"},

@@ -167,7 +167,7 @@ bool decide_hard(LightPlan& plan, const LightFacts& facts, const PlanRequest& re
                        .text = "a point has no penumbra; one ray a receiver is exact",
                        .is_certificate = true});
   else if (penumbra == EffectChoice::kOff)
-    finish_hard(plan, {.reason = "told", .text = "penumbrae are off"});
+    finish_hard(plan, {.reason = "told", .text = "penumbras are off"});
   else if (facts.widest_penumbra < request.hard_below && penumbra != EffectChoice::kOn)
     finish_hard(
         plan, {.reason = "narrow-penumbra",

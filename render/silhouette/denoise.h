@@ -8,7 +8,7 @@
 //   here. The variance is not measured but known: of n strata about √n are crossed by a silhouette, so that V
 //   = p has a variance of about p (1 - p) n^-3/2.
 //
-// It trades noise for blur: narrow penumbrae and small features of a shadow are lost.
+// It trades noise for blur: narrow penumbras and small features of a shadow are lost.
 #pragma once
 
 #include <tbb/task_arena.h>

@@ -10,8 +10,8 @@
 //             area of the lowest depth complexity, exact where only two depth complexities occur
 //   light_rays.h  one ray to that area: it tells whether the lowest depth complexity is 0
 //
-// Where no edge meets the disk the receiver is wholly lit or wholly in umbra: a certificate. Receivers with
-// normals are moved by the same offset as the starts of rays; a certificate speaks of O of the moved point.
+// Where no edge meets the disk the receiver is wholly lit or wholly in umbra: a certificate, which
+// speaks of O.
 //
 // Integrating visible area from silhouettes seen from the receiver is the idea of E. Eisemann and X. Décoret,
 // "Visibility sampling on GPU and applications" (2007), and of soft shadow volumes (S. Laine et al., 2005).
@@ -52,8 +52,8 @@ struct SilhouetteOptions {
   /// (merge/merged_edges.h). Faces are merged only in casters of 1,024 faces or more, and never where
   /// `integrate` is false.
   double tolerance = 4e-3;
-  /// Rays a receiver where edges do not close up (no such case is known) or where the offset moves a receiver
-  /// behind the light's plane. SilhouetteCounts::fallback says how many there were.
+  /// Rays a receiver where edges do not close up; no such case is known. SilhouetteCounts::fallback says how
+  /// many there were.
   int fallback_samples = 1024;
 };
 

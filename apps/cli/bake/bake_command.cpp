@@ -155,10 +155,12 @@ void run(const BakeArguments& arguments) {
   object_numbers(scene, arguments.objects);  // said before other processes are met
   const std::unique_ptr<Ranks> ranks = Ranks::of_this_run();
   const Bake bake{arguments, scene, source, ranks.get()};
-  arguments.is_lightmap() ? bake_map(bake) : bake_object(bake);
-  if (bake.is_helper()) return;
-  for (const Output& output : arguments.outputs())
-    if (!output.path.empty()) say_written(arguments.common.verbose, output.path);
+  or_abort_where_lost(ranks.get(), [&] {
+    arguments.is_lightmap() ? bake_map(bake) : bake_object(bake);
+    if (bake.is_helper()) return;
+    for (const Output& output : arguments.outputs())
+      if (!output.path.empty()) say_written(arguments.common.verbose, output.path);
+  });
 }
 
 }  // namespace

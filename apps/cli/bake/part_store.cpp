@@ -2,6 +2,7 @@
 
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "apps/common/outputs.h"
 #include "mesh/io/write_file.h"
@@ -19,6 +20,21 @@ std::string text_of_file(const std::filesystem::path& path) {
   return text.str();
 }
 
+/// Left by a write that was killed (mesh/io/write_file.h).
+bool is_unfinished(const std::filesystem::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with(".penumbra-") && name.ends_with(".tmp");
+}
+
+/// Whether a file has the keys of such settings: of some bake, not of another program.
+bool is_of_parts(const std::filesystem::path& file, const nlohmann::json& settings) {
+  const auto found = nlohmann::json::parse(text_of_file(file), nullptr, false);
+  if (!found.is_object()) return false;
+  for (const auto& [key, value] : settings.items())
+    if (!found.contains(key)) return false;
+  return true;
+}
+
 }  // namespace
 
 PartStore::PartStore(std::filesystem::path folder, const nlohmann::json& settings)
@@ -27,12 +43,15 @@ PartStore::PartStore(std::filesystem::path folder, const nlohmann::json& setting
   std::filesystem::create_directory(folder_, error);
   if (error || !std::filesystem::is_directory(folder_, error))
     throw SystemError(folder_.string() + ": cannot be made a folder for parts; name another by --parts");
-  bool is_mine = std::filesystem::is_empty(folder_, error), has_parts = false;
+  bool is_empty = true, has_settings = false, has_parts = false;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-    is_mine = is_mine || entry.path() == settings_file();
+    if (is_unfinished(entry.path())) continue;
+    is_empty = false;
+    has_settings = has_settings || entry.path() == settings_file();
     has_parts = has_parts || entry.path().extension() == kExtension;
   }
-  if (!is_mine) throw UsageError(folder_.string() + ": is there and holds no parts; name another by --parts");
+  if (!is_empty && !(has_settings && (has_parts || is_of_parts(settings_file(), settings))))
+    throw UsageError(folder_.string() + ": is there and holds no parts; name another by --parts");
   if (!has_parts)
     write_json(settings_file(), settings);
   else if (text_of_file(settings_file()) != to_text(settings))
@@ -74,6 +93,10 @@ void PartStore::remove(std::size_t parts) const {
   std::error_code ignored;
   for (std::size_t part = 0; part < parts; ++part) std::filesystem::remove(file_of(part), ignored);
   std::filesystem::remove(settings_file(), ignored);
+  std::vector<std::filesystem::path> unfinished;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, ignored))
+    if (is_unfinished(entry.path())) unfinished.push_back(entry.path());
+  for (const std::filesystem::path& file : unfinished) std::filesystem::remove(file, ignored);
   std::filesystem::remove(folder_, ignored);
 }
 

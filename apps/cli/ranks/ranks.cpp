@@ -3,7 +3,9 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <iostream>
 #include <utility>
 
 #include "apps/cli/ranks/mpi_library.h"
@@ -44,7 +46,10 @@ std::unique_ptr<Ranks> Ranks::of_this_run() {
 
 Ranks::~Ranks() {
   // MPI cannot be ended without those that are gone. All files are written and closed.
-  if (abandoned_) std::_Exit(0);
+  if (abandoned_) {
+    std::cout.flush();
+    std::_Exit(std::uncaught_exceptions() > 0 || !std::cout ? 1 : 0);
+  }
   library_.finish();
 }
 

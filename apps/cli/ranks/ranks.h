@@ -23,7 +23,8 @@ class Ranks {
   /// Null where the program was not started by mpirun, or alone. Throws UsageError where it was, and cannot
   /// do it: built without MPI.
   static std::unique_ptr<Ranks> of_this_run();
-  /// Ends MPI; where `abandon` was called without waiting for others.
+  /// Ends MPI; where `abandon` was called it ends the process instead, with exit code 1 if an exception is on
+  /// its way.
   ~Ranks();
   Ranks(const Ranks&) = delete;
   Ranks& operator=(const Ranks&) = delete;
@@ -38,6 +39,7 @@ class Ranks {
   [[noreturn]] void abort();
   /// Others are gone: MPI cannot be ended with them.
   void abandon() { abandoned_ = true; }
+  bool is_abandoned() const { return abandoned_; }
 
  private:
   Ranks(const MpiLibrary& library, int rank, int size)

@@ -120,6 +120,16 @@ void or_abort(Ranks& ranks, const std::function<void()>& work) {
   }
 }
 
+void or_abort_where_lost(Ranks* ranks, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    if (!ranks || !ranks->is_abandoned()) throw;
+    complain(error.what());
+    ranks->abort();
+  }
+}
+
 void lead(Ranks& ranks, WorkPlan& plan, const DoUnit& work, const Progress& progress) {
   Leader leader(ranks, plan);
   std::jthread answers([&] { or_abort(ranks, [&] { leader.answer_all(); }); });

@@ -40,6 +40,10 @@ void follow(Ranks& ranks, const DoUnit& work);
 /// What `work` throws is said and ends all ranks: the others would wait for this one.
 void or_abort(Ranks& ranks, const std::function<void()>& work);
 
+/// What `work` throws is said and ends the process where a rank is gone, since `ranks` ends it before the
+/// caller could say it. Else it is thrown on. `ranks` may be null.
+void or_abort_where_lost(Ranks* ranks, const std::function<void()>& work);
+
 /// One process alone.
 void work_alone(WorkPlan& plan, const DoUnit& work, const Progress& progress);
 

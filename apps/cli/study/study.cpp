@@ -127,13 +127,11 @@ std::size_t plan_and_write(const StudyOptions& options, const StudyCases& cases,
 
 }  // namespace
 
-std::optional<std::size_t> run_study(const StudyOptions& options, const Progress& progress) {
-  const std::unique_ptr<Ranks> ranks = Ranks::of_this_run();
+std::optional<std::size_t> run_study(const StudyOptions& options, Ranks* ranks, const Progress& progress) {
   const std::vector<Peer> peers = options.peers ? all_peers(options.three) : std::vector<Peer>{};
   const StudyCases cases(options);
   Bench bench(cases, peers);
-  if (!ranks || ranks->rank() == 0)
-    return plan_and_write(options, cases, peers, bench, ranks.get(), progress);
+  if (!ranks || ranks->rank() == 0) return plan_and_write(options, cases, peers, bench, ranks, progress);
   follow(*ranks, [&bench](const std::string& unit) { return bench.measure(unit); });
   return std::nullopt;
 }

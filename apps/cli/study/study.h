@@ -13,6 +13,8 @@
 
 namespace penumbra::apps {
 
+class Ranks;
+
 struct StudyOptions {
   std::vector<std::filesystem::path> scenes;
   std::filesystem::path output;
@@ -40,9 +42,10 @@ struct StudyOptions {
 };
 
 /// Measures the rows that DIR does not have and writes rows.jsonl, study.json, study.csv, pictures/ and
-/// index.html there. Returns how many rows were measured. Under mpirun only rank 0 writes; the others measure
-/// with it (../ranks/) and return nothing. Throws UsageError where DIR's rows were measured by something
-/// else.
-std::optional<std::size_t> run_study(const StudyOptions& options, const Progress& progress = {});
+/// index.html there. Returns how many rows were measured. Of several ranks (null: this process is alone) only
+/// rank 0 writes; the others measure with it and return nothing. Throws UsageError where DIR's rows were
+/// measured by something else.
+std::optional<std::size_t> run_study(const StudyOptions& options, Ranks* ranks,
+                                     const Progress& progress = {});
 
 }  // namespace penumbra::apps

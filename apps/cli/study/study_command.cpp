@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "apps/cli/commands.h"
+#include "apps/cli/ranks/shared_work.h"
 #include "apps/cli/study/peers/embree_loop.h"
 #include "apps/cli/study/peers/peer.h"
 #include "apps/cli/study/study.h"
@@ -18,7 +19,8 @@ constexpr const char* kFooter = R"(Examples:
   penumbra study data/scenes/bunny-medium.json data/scenes/cube-medium.json --output study
   penumbra study scene.json --output study --quick
   penumbra study scene.json --output study --methods silhouette,rays
-Every method is timed and judged with its defaults and with each option varied alone. DIR gets rows.jsonl, to which
+Every method is timed and judged with its defaults, and with all combinations of its options where these are at most 16;
+else with each option varied alone. DIR gets rows.jsonl, to which
 rows are added as they finish, study.csv, study.json, pictures/ and index.html, one page that needs no network. A second
 call measures what is missing. Times are milliseconds, errors are of the fraction of the light that is seen.)";
 
@@ -75,14 +77,17 @@ void run(Arguments& arguments, const CLI::App& command) {
   }
   study.judge.threads = arguments.common.threads;
   const ThreadLimit limit(arguments.common.threads);
-  std::optional<std::size_t> measured;
-  {
-    ProgressLine progress("measuring");
-    measured = run_study(study, progress.callback());
-  }
-  if (!measured) return;
-  print(std::to_string(*measured) + (*measured == 1 ? " row" : " rows") + " measured; the page is " +
-        (study.output / "index.html").string() + "\n");
+  const std::unique_ptr<Ranks> ranks = Ranks::of_this_run();
+  or_abort_where_lost(ranks.get(), [&] {
+    std::optional<std::size_t> measured;
+    {
+      ProgressLine progress("measuring");
+      measured = run_study(study, ranks.get(), progress.callback());
+    }
+    if (!measured) return;
+    print(std::to_string(*measured) + (*measured == 1 ? " row" : " rows") + " measured; the page is " +
+          (study.output / "index.html").string() + "\n");
+  });
 }
 
 }  // namespace

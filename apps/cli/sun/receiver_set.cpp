@@ -12,6 +12,7 @@
 #include "mesh/io/formats.h"
 #include "mesh/io/npy.h"
 #include "mesh/io/read_file.h"
+#include "mesh/vectors.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {
@@ -116,9 +117,9 @@ void add_faces(const Surface& surface, ReceiverSet& out) {
   for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
     const IndexedTriangle& t = surface.triangles[f];
     const Vec3 n = surface.cross(f);
-    if (!(glm::length(n) > 0.0)) continue;  // without area
+    if (n == Vec3(0.0)) continue;  // without area
     out.points.push_back((p[t[0]] + p[t[1]] + p[t[2]]) / 3.0);
-    out.normals.push_back(glm::normalize(n));
+    out.normals.push_back(detail::unit(n));
     out.objects.push_back(surface.objects[f]);
     out.faces.push_back(surface.faces[f]);
   }
@@ -133,9 +134,9 @@ void add_vertices(const Surface& surface, ReceiverSet& out) {
       last[v] = f;
     }
   for (std::size_t v = 0; v < sums.size(); ++v) {
-    if (!(glm::length(sums[v]) > 0.0)) continue;
+    if (sums[v] == Vec3(0.0)) continue;
     out.points.push_back(surface.positions[v]);
-    out.normals.push_back(glm::normalize(sums[v]));
+    out.normals.push_back(detail::unit(sums[v]));
     out.objects.push_back(surface.objects[last[v]]);
     out.faces.push_back(surface.faces[last[v]]);
   }

@@ -3,18 +3,26 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <map>
-#include <regex>
+#include <string_view>
 
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {
 namespace {
 
+bool is_number(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 /// The name of the heightfield that it is a tile of, whose own is NAME[ROW,COLUMN]; else its name.
 std::string name_without_tile(const std::string& name) {
-  static const std::regex kTile(R"((.+)\[\d+,\d+\])");
-  std::smatch match;
-  return std::regex_match(name, match, kTile) ? match[1].str() : name;
+  // Not by std::regex, which takes a stack frame for every letter.
+  const std::size_t open = name.rfind('[');
+  if (open == std::string::npos || open == 0 || name.back() != ']') return name;
+  const std::string_view tile = std::string_view(name).substr(open + 1, name.size() - open - 2);
+  const std::size_t comma = tile.find(',');
+  if (comma == std::string_view::npos) return name;
+  return is_number(tile.substr(0, comma)) && is_number(tile.substr(comma + 1)) ? name.substr(0, open) : name;
 }
 
 /// Adds meshes; a vertex on the boundary of one is the same as that of another at the same place.

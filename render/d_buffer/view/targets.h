@@ -1,6 +1,6 @@
 // D-buffer step 3: which perspectives from the light's center a D-buffer needs.
 //
-// In: where the casters and their penumbrae are seen, in (u, v) of light space. Out: targets. A light close
+// In: where the casters and their penumbras are seen, in (u, v) of light space. Out: targets. A light close
 // to its casters needs several; a distant one never does.
 #pragma once
 

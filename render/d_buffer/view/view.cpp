@@ -17,7 +17,7 @@ constexpr int kMostRounds = 8;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What casters are seen in, with their penumbrae, and the greatest height of one.
+/// What casters are seen in, with their penumbras, and the greatest height of one.
 struct CasterExtent {
   UvBounds uv;
   double high = -kInfinity;

@@ -1,8 +1,8 @@
 // D-buffer step 3: from where and how wide the casters are seen.
 //
 // In: casters and receivers in light space, texels a side. Out: the window of the light's view, the
-// perspectives that see in it all casters and their penumbrae, and how large the boundaries of casters are
-// drawn there. The window is what both the casters' penumbrae and the receivers are seen in: nobody reads the
+// perspectives that see in it all casters and their penumbras, and how large the boundaries of casters are
+// drawn there. The window is what both the casters' penumbras and the receivers are seen in: nobody reads the
 // rest.
 #pragma once
 

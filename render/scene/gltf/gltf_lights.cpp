@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "mesh/vectors.h"
@@ -82,6 +83,8 @@ class LightMaker {
     } else {
       return notes_.ignore("lights of unknown types");
     }
+    if (!(largest_component(made.radiance) <= std::numeric_limits<double>::max()))  // NaN, too
+      file_.fail("light " + made.name, "is so small that its radiance is no number", "make it larger, or 0");
     lights.push_back(std::move(made));
   }
 

@@ -11,6 +11,7 @@
 #include "render/scene/gltf/gltf_lights.h"
 #include "render/scene/gltf/gltf_mesh.h"
 #include "render/scene/gltf/gltf_nodes.h"
+#include "render/scene/scene_limits.h"
 
 namespace penumbra::detail {
 namespace {
@@ -120,6 +121,8 @@ LoadedScene read_gltf(std::span<const std::byte> bytes, const std::filesystem::p
   }
   const std::optional<Camera> camera = read_gltf_camera(file, nodes, bounds, notes);
   scene.camera = camera ? *camera : camera_for(bounds);
+  if (const std::string complaint = detail::out_of_range(scene); !complaint.empty())
+    throw SceneError(name + ": " + complaint);
   scene.document = "{}";
   scene.files = file.files;
   if (const std::string text = notes.text(); !text.empty()) {

@@ -43,6 +43,13 @@ TEST(GivenAtlas, HasTheCoordinatesInTexels) {
     for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(atlas.uv[0][f][k], 64.0 * objects[0].corner_uv[f][k]);
 }
 
+TEST(GivenAtlas, AFaceWithoutAreaGetsNoTexel) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  SceneObject object{.name = "line", .mesh = TriangleMesh::build(points, {{0, 1, 2}})};
+  object.corner_uv.push_back({glm::dvec2(0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0)});
+  for (const glm::dvec2& p : given_atlas({object}, {.size = 64}).uv[0][0]) EXPECT_EQ(p, glm::dvec2(0.0));
+}
+
 TEST(GivenAtlas, TwoObjectsSideBySideAreTaken) {
   std::vector<SceneObject> objects{square(), square()};
   move_right(objects[1], 0.5);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "penumbra/mesh/error.h"
@@ -174,6 +175,26 @@ TEST(TextureAtlas, RefusesWhatDoesNotFit) {
   EXPECT_THROW(make_atlas(many, {.size = 32}), UsageError);
   EXPECT_THROW(make_atlas(many, {.texel = 1e-6}), UsageError);
   EXPECT_NO_THROW(make_atlas(many, {.size = 128}));
+}
+
+// A corner lies on the opposite edge but for a rounding: turned into its chart, the face has no height.
+TEST(TextureAtlas, ASliverGetsATexel) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 1, 0}, {0.8125, std::nextafter(0.8125, 1.0), 0}};
+  const auto sliver = TriangleMesh::build(points, {{0, 1, 2}});
+  for (const auto& objects : {objects_of({sliver}), objects_of({sliver, make_box({5, 0, 0}, {1, 1, 1})})}) {
+    const TextureAtlas atlas = make_atlas(objects, {.size = 64});
+    for (const std::vector<FaceUv>& faces : atlas.uv)
+      for (const FaceUv& uv : faces)
+        for (const glm::dvec2& p : uv) EXPECT_TRUE(p.x >= 0.0 && p.x <= 64.0 && p.y >= 0.0 && p.y <= 64.0);
+  }
+}
+
+TEST(TextureAtlas, RefusesWhatIsNoNumberAndWhatIsTooSmall) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto box = objects_of({make_box({0, 0, 0}, {1, 1, 1})});
+  EXPECT_THROW(make_atlas(box, {.texel = nan}), UsageError);
+  EXPECT_THROW(make_atlas(box, {.chart_degrees = nan}), UsageError);
+  EXPECT_THROW(make_atlas(objects_of({make_box({0, 0, 0}, Vec3(1e-200))}), {.size = 64}), UsageError);
 }
 
 TEST(TextureCoverage, PiecesAddUpToFaces) {

@@ -42,7 +42,7 @@ TEST(DBuffer, OneEdgeIsTheChordFormula) {
   }
 }
 
-/// Texel of a D-buffer with one perspective, in (x/z, y/z): it spans the casters and their penumbrae down to
+/// Texel of a D-buffer with one perspective, in (x/z, y/z): it spans the casters and their penumbras down to
 /// the farthest receiver, with four texels to spare.
 double texel_size(const Scene& scene, const LightFrame& axes, int size) {
   const auto local = [&](const Vec3& p) {

@@ -269,7 +269,7 @@ TEST(Resampler, LessensTheError) {
   }
 }
 
-// Where penumbrae are a few pixels wide samples are noisier than entries that are exact.
+// Where penumbras are a few pixels wide samples are noisier than entries that are exact.
 TEST(Resampler, NeverMakesAPictureWorse) {
   const auto context = gl::make_context(gl::Backend::kOsMesa);
   for (const char* name : {"triangle-small", "speck-small", "cube-small", "sphere-small", "torus-small",

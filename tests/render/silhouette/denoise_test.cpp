@@ -115,7 +115,7 @@ TEST(Denoise, NeedsPixels) {
   EXPECT_THROW(filtered(bare, noisy, plane.all), UsageError);
 }
 
-// Of real penumbrae, wide ones, where noise is most of the error.
+// Of real penumbras, wide ones, where noise is most of the error.
 TEST(Denoise, HelpsFewRays) {
   const Scene scene = testing::data_scene("torus-medium");
   const testing::View view(scene, 320, 240);

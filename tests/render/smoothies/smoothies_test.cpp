@@ -48,7 +48,7 @@ TEST(Smoothies, OfACornerAreRound) {
     EXPECT_NEAR(values[i], smooth(std::hypot(points[i].x, points[i].y)), 0.01) << i;
 }
 
-// One width for all edges is right for one depth: with edges at two depths both penumbrae are wrong, by the
+// One width for all edges is right for one depth: with edges at two depths both penumbras are wrong, by the
 // ratio of depths.
 TEST(Smoothies, HaveOneWidthForAllDepths) {
   // Squares far apart, at depths 1 and 1.5.

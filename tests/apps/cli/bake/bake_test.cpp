@@ -184,6 +184,22 @@ TEST_F(BakePartsTest, PartsOfOtherSettingsAreRefused) {
   EXPECT_THROW(apps::PartStore(file("file"), {{"scene", "a"}}), SystemError);
 }
 
+TEST_F(BakePartsTest, FilesOfOthersAreKept) {
+  std::filesystem::create_directory(file("theirs"));
+  write("theirs/settings.json", R"({"editor": 1})");
+  EXPECT_THROW(apps::PartStore(file("theirs"), {{"scene", "a"}}), UsageError);
+  EXPECT_EQ(read_text(file("theirs/settings.json")), R"({"editor": 1})");
+}
+
+TEST_F(BakePartsTest, WhatAKilledWriteLeftIsRemoved) {
+  std::filesystem::create_directory(file("parts"));
+  write("parts/.penumbra-12-3.tmp", "half");
+  const apps::PartStore store(file("parts"), {{"scene", "a"}});
+  store.write(0, {1.0f});
+  store.remove(1);
+  EXPECT_FALSE(std::filesystem::exists(file("parts")));
+}
+
 TEST_F(BakePartsTest, ProgressNeverFalls) {
   double last = 0.0;
   Counted counted;
