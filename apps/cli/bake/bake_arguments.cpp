@@ -2,14 +2,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/common/messages.h"
 #include "apps/common/method_options.h"
 #include "penumbra/mesh/error.h"
 
 namespace penumbra::apps {
 namespace {
 
+constexpr const char *kLightmapGroup = "Lightmap", *kFaceGroup = "Faces and vertices";
+
 void add_lightmap_options(CLI::App& command, BakeArguments& arguments) {
-  const char* group = "Lightmap";
+  const char* group = kLightmapGroup;
   command.add_option("--lightmap", arguments.lightmap, "A texture of the objects' light, EXR")
       ->type_name("FILE")
       ->group(group);
@@ -70,7 +73,7 @@ void add_lightmap_options(CLI::App& command, BakeArguments& arguments) {
 }
 
 void add_face_options(CLI::App& command, BakeArguments& arguments) {
-  const char* group = "Faces and vertices";
+  const char* group = kFaceGroup;
   command.add_option("--to", arguments.to, "faces or vertices")
       ->check(CLI::IsMember({"faces", "vertices"}))
       ->group(group);
@@ -143,6 +146,20 @@ void require_usable(const BakeArguments& arguments) {
   for (const Output& output : arguments.outputs()) require_writable(output.path);
   const MethodInfo& method = method_named(arguments.visibility.method);
   if (method.needs_pixels) throw UsageError("method " + method.name + " takes pictures alone; use another");
+}
+
+void say_what_is_ignored(const BakeArguments& arguments, const CLI::App& command) {
+  const bool map = arguments.is_lightmap();
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && option->get_group() == (map ? kFaceGroup : kLightmapGroup))
+      say_ignored("--" + option->get_lnames().front(),
+                  map ? "it belongs to --to, and a lightmap is baked" : "it belongs to --lightmap");
+  if (!map) return;
+  if (arguments.picture.empty())
+    for (const char* option : {"--size", "--exposure"})
+      if (command.count(option) > 0) say_ignored(option, "there is no --picture");
+  if (command.count("--texels") > 0 && command.count("--texel") > 0)
+    say_ignored("--texels", "the texture is as large as --texel makes it");
 }
 
 }  // namespace penumbra::apps

@@ -51,4 +51,7 @@ void add_bake_options(CLI::App& command, BakeArguments& arguments);
 /// Throws UsageError and SystemError for all that can be refused without the scene.
 void require_usable(const BakeArguments& arguments);
 
+/// One line for each option that was given and has no effect.
+void say_what_is_ignored(const BakeArguments& arguments, const CLI::App& command);
+
 }  // namespace penumbra::apps

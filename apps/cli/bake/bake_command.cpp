@@ -141,8 +141,9 @@ void bake_object(const Bake& bake) {
   store->remove(parts.count);
 }
 
-void run(const BakeArguments& arguments) {
+void run(const BakeArguments& arguments, const CLI::App& command) {
   require_usable(arguments);
+  say_what_is_ignored(arguments, command);
   const ThreadLimit limit(arguments.common.threads);
   const Scene scene = chosen_scene(arguments, load(arguments.scene));
   require_apart(arguments.outputs(), scene.files);
@@ -170,7 +171,7 @@ void add_bake_command(CLI::App& app) {
   auto arguments = std::make_shared<BakeArguments>();
   add_bake_options(command, *arguments);
   command.footer(kFooter);
-  command.callback([arguments] { run(*arguments); });
+  command.callback([arguments, &command] { run(*arguments, command); });
 }
 
 }  // namespace penumbra::apps

@@ -11,6 +11,7 @@
 #include "apps/cli/plan/effect_option.h"
 #include "apps/cli/plan/plan_json.h"
 #include "apps/cli/plan/plan_picture.h"
+#include "apps/common/messages.h"
 #include "apps/common/options.h"
 #include "apps/common/outputs.h"
 #include "penumbra/mesh/error.h"
@@ -136,6 +137,7 @@ std::string draw(const Arguments& arguments, const Scene& scene, const std::vect
 
 void require_good_outputs(const Arguments& arguments) {
   if (!arguments.picture.empty()) require_extension("--picture", arguments.picture, {".png"}, false);
+  if (!arguments.light.empty() && arguments.picture.empty()) say_ignored("--light", "there is no --picture");
   if (!arguments.output.empty()) require_extension("--output", arguments.output, {".json"}, true);
   require_one_stdout({arguments.output, arguments.json ? "-" : ""});
   for (const auto& path : {arguments.output, arguments.picture}) require_writable(path);

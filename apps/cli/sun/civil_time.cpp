@@ -43,8 +43,9 @@ CivilTime parse_time(const std::string& option, const std::string& text) {
   if (!date.ok()) refuse_time(option, text, "there is no such day");
   const int hour = number(m[4]), minute = number(m[5]);
   const double second = m[6].matched ? std::atof(m[6].str().c_str()) : 0.0;
-  if (hour > 24 || minute > 59 || second >= 60.0)
+  if (hour > 24 || minute > 59 || second >= 60.0 || (hour == 24 && (minute > 0 || second > 0.0)))
     refuse_time(option, text, "there is no such time of the day");
+  if (number(m[9]) > 18 || number(m[10]) > 59) refuse_time(option, text, "there is no such offset");
   const int ahead = (number(m[9]) * 60 + number(m[10])) * 60 * (m[8].str() == "-" ? -1 : 1);
   const double days = static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
   return {days * kDay + hour * 3600.0 + minute * 60.0 + second - ahead, ahead};

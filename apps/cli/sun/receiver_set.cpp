@@ -53,19 +53,23 @@ class RowTaker {
   ReceiverSet set_;
 };
 
-/// The numbers of a line, which commas, semicolons or blanks separate. False where something is no number.
+/// The numbers of a line, with one comma or semicolon, or blanks, between two of them. False where something
+/// is no number; `out` then has those before it.
 bool numbers_of(std::string_view line, std::vector<double>& out) {
   out.clear();
-  constexpr std::string_view kBetween = ",; \t\r";
-  while (true) {
-    const std::size_t begin = line.find_first_not_of(kBetween);
-    if (begin == std::string_view::npos) return true;
-    const std::size_t end = std::min(line.find_first_of(kBetween, begin), line.size());
+  const auto skip_blanks = [&line] {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+  };
+  for (skip_blanks(); !line.empty(); skip_blanks()) {
+    const std::size_t end = std::min(line.find_first_of(",; \t\r"), line.size());
     double value = 0.0;
-    if (!detail::parse_number(line.substr(begin, end - begin), value)) return false;
+    if (!detail::parse_number(line.substr(0, end), value)) return false;
     out.push_back(value);
     line.remove_prefix(end);
+    skip_blanks();
+    if (line.starts_with(',') || line.starts_with(';')) line.remove_prefix(1);
   }
+  return true;
 }
 
 ReceiverSet read_csv(const std::filesystem::path& path) {
@@ -81,7 +85,7 @@ ReceiverSet read_csv(const std::filesystem::path& path) {
     const bool good = numbers_of(content, row);
     if (content.starts_with('#') || (good && row.empty())) continue;
     const std::string where = "line " + std::to_string(line);
-    if (!good && !may_be_names)
+    if (!good && !(may_be_names && row.empty()))
       detail::fail_reading(path.string(), where, detail::quote(content) + " has something that is no number",
                            "separate numbers by commas; begin comments with #");
     may_be_names = false;

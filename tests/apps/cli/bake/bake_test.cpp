@@ -133,6 +133,24 @@ TEST_F(BakeCommandTest, SaysWhatItCannotDo) {
   EXPECT_TRUE(files().empty());
 }
 
+TEST_F(BakeCommandTest, SaysWhichOptionsHaveNoEffect) {
+  const auto said = [this](std::vector<std::string> words) {
+    words.insert(words.begin(), {"bake", kCube, "--object", "1"});
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.err;
+  };
+  const std::string faces =
+      said({"--to", "faces", "--output", path("a.ply"), "--texels", "64", "--dilation", "2"});
+  for (const char* option : {"--texels", "--dilation"})
+    EXPECT_NE(faces.find(option + std::string(" has no effect")), std::string::npos) << faces;
+  const std::string map =
+      said({"--lightmap", path("a.exr"), "--texels", "32", "--side", "2", "--size", "8x8"});
+  for (const char* option : {"--side", "--size"})
+    EXPECT_NE(map.find(option + std::string(" has no effect")), std::string::npos) << map;
+  EXPECT_EQ(said({"--to", "faces", "--output", path("b.ply"), "--side", "2"}), "");
+}
+
 /// Parts that count how often they are baked, and fail from the n-th on.
 struct Counted {
   int baked = 0, fails_at = 1000;

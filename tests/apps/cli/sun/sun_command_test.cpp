@@ -27,8 +27,8 @@ TEST(CivilTime, IsReadAndWritten) {
     EXPECT_EQ(time_text(time.unix_time, time.offset), text);
   }
   EXPECT_EQ(time_text(1066419030.26, -7 * 3600, 1), "2003-10-17T12:30:30.3-07:00");
-  for (const char* text :
-       {"", "now", "2026-02-29", "2026-13-01", "2026-01-01T25:00", "2026-01-01T10", "26-01-01"})
+  for (const char* text : {"", "now", "2026-02-29", "2026-13-01", "2026-01-01T25:00", "2026-01-01T24:01",
+                           "2026-01-01T10", "26-01-01", "2026-01-01T10:00+02:75", "2026-01-01T10:00+99:00"})
     EXPECT_THROW(parse_time("--from", text), UsageError) << text;
   EXPECT_EQ(parse_duration("--step", "1.5h"), 5400.0);
   EXPECT_EQ(parse_duration("--step", "15min"), 900.0);
@@ -123,6 +123,8 @@ TEST_F(SunCommandTest, PointsAreReadFromThreeFormats) {
 TEST_F(SunCommandTest, ComplaintsSayWhatWhereAndWhatToDo) {
   write("bad.csv", "x,y,z\n1,2,3\n1,2\n");
   write("word.csv", "1,2,3\n1,two,3\n");
+  write("first.csv", "1,2,O\n1,2,3\n");
+  write("empty.csv", "1,2,,3\n");
   write("flat.csv", "1,2,3,0,0,0\n");
   struct Case {
     std::vector<std::string> words;
@@ -136,6 +138,8 @@ TEST_F(SunCommandTest, ComplaintsSayWhatWhereAndWhatToDo) {
            {sun({"--points", path("none.csv"), "--output", out}), 3, "no such file"},
            {sun({"--points", path("bad.csv"), "--output", out}), 3, "line 3"},
            {sun({"--points", path("word.csv"), "--output", out}), 3, "line 2"},
+           {sun({"--points", path("first.csv"), "--output", out}), 3, "line 1"},
+           {sun({"--points", path("empty.csv"), "--output", out}), 3, "line 1"},
            {sun({"--points", path("flat.csv"), "--output", out}), 3, "normal of length 0"},
            {sun({"--points", path("p.csv"), "--output", path("out.xls")}), 2, ".npy"},
            {sun({"--points", path("p.csv"), "--step", "5", "--output", out}), 2, "15min"},
