@@ -96,9 +96,7 @@ std::string read_name(const SceneNode& node) {
   const auto name = node.find("name");
   if (!name) return {};
   std::string text = name->text();
-  const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
-  if (text.empty() || !std::all_of(text.begin(), text.end(), fits))
-    name->fail("is \"" + text + "\"; use letters, digits, '-' and '_'");
+  if (!is_light_name(text)) name->fail("is \"" + text + "\"; use letters, digits, '-' and '_'");
   return text;
 }
 
@@ -112,6 +110,11 @@ Light read_light(const SceneNode& node) {
 }
 
 }  // namespace
+
+bool is_light_name(const std::string& name) {
+  const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  return !name.empty() && std::all_of(name.begin(), name.end(), fits);
+}
 
 double sine_between(const Vec3& a, const Vec3& b) {
   return glm::length(glm::cross(unit(a), unit(b)));

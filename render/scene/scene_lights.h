@@ -13,6 +13,9 @@ namespace penumbra::detail {
 /// letters, digits, '-' and '_', values outside their range.
 std::vector<Light> read_lights(const SceneNode& root);
 
+/// Whether all are letters, digits, '-' and '_', and there is one.
+bool is_light_name(const std::string& name);
+
 /// Sine of the angle between two vectors of any length; 0 where one of them is 0.
 double sine_between(const Vec3& a, const Vec3& b);
 
