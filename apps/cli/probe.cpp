@@ -18,9 +18,8 @@ std::uint64_t seed_of(const RenderResult& result) {
   return seed == result.options.end() ? 1 : std::get<std::uint64_t>(seed->second);
 }
 
-nlohmann::json trace_point(const Scene& scene, const RenderResult& result, std::size_t light, int threads,
-                           std::size_t index) {
-  const Casters casters(scene.objects, threads);
+nlohmann::json trace_point(const Casters& casters, const Scene& scene, const RenderResult& result,
+                           std::size_t light, std::size_t index) {
   const std::array points{result.surface.position[index]}, normals{result.surface.normal[index]};
   const std::array objects{result.surface.object[index]};
   const std::array faces{result.surface.face[index]};
@@ -48,6 +47,7 @@ nlohmann::json probe_pixel(const Scene& scene, const RenderResult& result, int t
   report["N"] = to_json(surface.normal[index]);
   report["rgb"] = {channel("R"), channel("G"), channel("B")};
   const bool several = scene.lights.size() > 1;
+  const Casters casters(scene.objects, threads);
   for (std::size_t k = 0; k < scene.lights.size(); ++k) {
     const std::string& name = scene.lights[k].name;
     const auto at = [&](const char* key) -> nlohmann::json& {
@@ -56,7 +56,7 @@ nlohmann::json probe_pixel(const Scene& scene, const RenderResult& result, int t
     const std::string suffix = several ? "." + name : "";
     at("visibility") = channel("visibility" + suffix);
     at("region") = static_cast<int>(channel("region" + suffix));
-    if (result.method != "reference") at("reference") = trace_point(scene, result, k, threads, index);
+    if (result.method != "reference") at("reference") = trace_point(casters, scene, result, k, index);
   }
   return report;
 }

@@ -66,7 +66,7 @@ RenderOptions checked_options(const Arguments& arguments) {
   require_one_stdout(destinations);
   for (const auto& output : arguments.images) require_extension("--output", output, {".png", ".exr"}, true);
   for (const auto& destination : destinations) require_writable(destination);
-  require_apart(arguments.outputs(), {arguments.scene.path});
+  require_apart(arguments.outputs(), {arguments.scene.path, arguments.plan});
   return options;
 }
 

@@ -48,6 +48,20 @@ void Picture::draw(int x, int y, const Picture& other) {
     }
 }
 
+namespace {
+
+/// With ? for what the font does not have: all but ASCII. A character of UTF-8 is one.
+std::string printable(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xc0) == 0x80;
+    if (!continues) out += c >= 0x20 && c <= 0x7e ? c : '?';
+  }
+  return out;
+}
+
+}  // namespace
+
 void Picture::write(int x, int y, const std::string& text, Color color) {
   // Four corners of 16 bytes (x, y, z as float, then a color) for each axis-parallel box that letters are
   // made of.
@@ -56,7 +70,7 @@ void Picture::write(int x, int y, const std::string& text, Color color) {
     unsigned char color[4];
   };
   std::vector<std::array<Corner, 4>> boxes(text.size() * 20 + 1);
-  std::string copy = text;
+  std::string copy = printable(text);
   const int count = stb_easy_font_print(0, 0, copy.data(), nullptr, boxes.data(),
                                         static_cast<int>(boxes.size() * sizeof boxes[0]));
   for (int i = 0; i < count; ++i) {
@@ -69,7 +83,7 @@ void Picture::write(int x, int y, const std::string& text, Color color) {
 }
 
 int Picture::width_of(const std::string& text) {
-  std::string copy = text;
+  std::string copy = printable(text);
   return kTextScale * stb_easy_font_width(copy.data());
 }
 

@@ -22,7 +22,7 @@ template <class T>
 T made(std::string name, LightShape shape, const py::object& radiance) {
   require_valid(shape);
   if (!name.empty() && !detail::is_light_name(name))
-    throw UsageError("the name \"" + name + "\" is not of letters, digits, '-' and '_'");
+    throw UsageError("the name \"" + name + "\" is not of letters, digits, '-' and '_', at most 200");
   T light;
   light.name = std::move(name);
   light.shape = shape;

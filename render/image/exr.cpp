@@ -69,6 +69,8 @@ std::string encode(const Image& image) {
   for (const auto& [name, text] : image.metadata) header.insert(name, Imf::StringAttribute(text));
   Imf::FrameBuffer frame;
   for (const auto& [name, values] : image.channels) {
+    if (name.size() > 255)
+      throw UsageError("channel " + name.substr(0, 40) + "...: its name has more than 255 letters");
     header.channels().insert(name, Imf::Channel(Imf::FLOAT));
     // OpenEXR's slices are not const, but writing only reads them.
     char* base = reinterpret_cast<char*>(const_cast<float*>(values.data()));

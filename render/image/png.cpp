@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "mesh/io/write_file.h"
@@ -71,6 +73,10 @@ void write_bytes(const std::filesystem::path& path, int width, int height, int c
                  const std::vector<unsigned char>& bytes) {
   assert(bytes.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                              static_cast<std::size_t>(channels));
+  // The encoder counts bytes in int.
+  if ((std::int64_t{width} * channels + 1) * height > std::numeric_limits<int>::max())
+    throw SystemError(path.string() + ": " + std::to_string(width) + "x" + std::to_string(height) +
+                      " pixels are too many for a PNG; write a smaller picture, or an EXR");
   std::string png;
   if (!stbi_write_png_to_func(append, &png, width, height, channels, bytes.data(), channels * width))
     throw SystemError(path.string() + ": cannot be encoded as PNG; not enough memory");

@@ -101,12 +101,14 @@ void take_part(const SeenLights& __restrict lights, const KernelPart& part, Texe
   }
 }
 
-/// Adds what boxes see covered, as parts of the light.
+/// Adds what boxes see covered, as parts of the light. Far beside the texture rounding leaves a box no width.
 PENUMBRA_VECTOR_CLONES
 void add_shares(const TexelBoxes& boxes, const double* __restrict covered, double part,
                 double* __restrict share) {
-  for (std::size_t i = 0; i < boxes.count; ++i)
-    share[i] += part * covered[i] / ((boxes.x1[i] - boxes.x0[i]) * (boxes.y1[i] - boxes.y0[i]));
+  for (std::size_t i = 0; i < boxes.count; ++i) {
+    const double area = (boxes.x1[i] - boxes.x0[i]) * (boxes.y1[i] - boxes.y0[i]);
+    share[i] += area > 0.0 ? part * covered[i] / area : 0.0;
+  }
 }
 
 /// A slice fades in behind its plane, from nothing to all of it over its thickness.

@@ -96,7 +96,7 @@ std::string read_name(const SceneNode& node) {
   const auto name = node.find("name");
   if (!name) return {};
   std::string text = name->text();
-  if (!is_light_name(text)) name->fail("is \"" + text + "\"; use letters, digits, '-' and '_'");
+  if (!is_light_name(text)) name->fail("is \"" + text + "\"; use letters, digits, '-' and '_', at most 200");
   return text;
 }
 
@@ -113,7 +113,7 @@ Light read_light(const SceneNode& node) {
 
 bool is_light_name(const std::string& name) {
   const auto fits = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
-  return !name.empty() && std::all_of(name.begin(), name.end(), fits);
+  return !name.empty() && name.size() <= 200 && std::all_of(name.begin(), name.end(), fits);
 }
 
 double sine_between(const Vec3& a, const Vec3& b) {

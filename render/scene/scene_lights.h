@@ -13,7 +13,8 @@ namespace penumbra::detail {
 /// letters, digits, '-' and '_', values outside their range.
 std::vector<Light> read_lights(const SceneNode& root);
 
-/// Whether all are letters, digits, '-' and '_', and there is one.
+/// Whether all are letters, digits, '-' and '_', at least one and at most 200: channels of an EXR have names
+/// of up to 255.
 bool is_light_name(const std::string& name);
 
 /// Sine of the angle between two vectors of any length; 0 where one of them is 0.

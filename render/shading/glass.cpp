@@ -63,9 +63,11 @@ double thickness_at(const std::vector<GlassCrossing>& crossings, std::size_t i) 
 class Overlay {
  public:
   Overlay(const Scene& scene, const GlassRays* glass) : scene_(scene), glass_(glass) {
-    const Bounds casters = scene.caster_bounds();
-    size_ = 2.0 * casters.radius();
-    brightness_ = brightness_at(scene, casters.center());
+    // Glass is as thick as what casts is large. Where nothing casts, it is the scene; where that is empty,
+    // the unit.
+    const Bounds casters = scene.caster_bounds(), bounds = casters.radius() > 0.0 ? casters : scene.bounds();
+    size_ = bounds.radius() > 0.0 ? 2.0 * bounds.radius() : 1.0;
+    brightness_ = brightness_at(scene, bounds.radius() > 0.0 ? bounds.center() : scene.camera.target);
     if (glass_) eye_inside_ = bodies_around(scene.camera.eye);
     if (!scene.picture.show_lights) return;
     for (const Light& light : scene.lights)

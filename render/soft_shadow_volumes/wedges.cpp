@@ -114,7 +114,7 @@ Ray Wedges::ray_of(const CenterTask& task) const {
 
 /// `layers`: those that hide the aim.
 void Wedges::settle(const CenterTask& task, double layers, std::span<float> visibility) const {
-  const double seen = std::clamp((1.0 - layers) * task.area - task.hidden, 0.0, task.area);
+  const double seen = std::clamp((1.0 - layers) * task.area - task.hidden, 0.0, std::max(0.0, task.area));
   visibility[task.index] += static_cast<float>(seen / patches_.total);
 }
 

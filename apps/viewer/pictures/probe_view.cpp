@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <exception>
 #include <filesystem>
 
 #include "apps/viewer/panel/words.h"
@@ -62,10 +63,14 @@ void ProbeView::ask(const State& state, const Frame& frame) {
 
 void ProbeView::draw(const State& state, const Frame* frame, const Pointer& pointer) {
   if (task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-    auto [casters, answer] = task_.get();
-    casters_ = std::move(casters);
-    texture_.upload(answer.disk);
-    answer_ = std::move(answer);
+    try {
+      auto [casters, answer] = task_.get();
+      casters_ = std::move(casters);
+      texture_.upload(answer.disk);
+      answer_ = std::move(answer);
+    } catch (const std::exception&) {  // no memory, say: the next point asks anew
+      casters_.reset();
+    }
   }
   if (!state.probe || !frame || frame->sides.empty() || frame->model != state.model) return;
   if (pointer.at() && !pointer.dragging()) at_ = pointer.at();

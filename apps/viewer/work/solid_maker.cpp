@@ -92,10 +92,6 @@ void SolidMaker::start(const State& state, std::vector<double> details) {
 }
 
 void SolidMaker::run(const Task& task) {
-  if (casters_for_ != task.model) {
-    casters_ = std::make_shared<const Casters>(task.model->objects);
-    casters_for_ = task.model;
-  }
   try {
     for (const double detail : task.details) {
       const std::shared_ptr<const Solids> made = make(task, detail);
@@ -133,6 +129,10 @@ std::shared_ptr<const Solids> SolidMaker::make(const Task& task, double detail) 
     return solid_triangles(extrude_solid(*casters_, task.light, {kind}, options).mesh, made->origin);
   };
   try {
+    if (casters_for_ != task.model) {
+      casters_ = std::make_shared<const Casters>(task.model->objects);
+      casters_for_ = task.model;
+    }
     if (task.wanted.umbra_solid) made->umbra = solid(ShadowLevel::Kind::kUmbra, 0.0, both ? 0.5 : 1.0);
     if (task.wanted.penumbra_solid)
       made->penumbra = solid(ShadowLevel::Kind::kPenumbra, both ? 0.5 : 0.0, 1.0);

@@ -51,6 +51,12 @@ TEST_F(ImageTest, ExrKeepsEveryBit) {
   EXPECT_EQ(again.channels, image.channels);
 }
 
+TEST_F(ImageTest, NamesThatAnExrWouldCutAreRefused) {
+  Image image = sample_image();
+  image.channels["visibility." + std::string(300, 'a')] = image.channels.at("visibility");
+  EXPECT_THROW(write_exr(path("long.exr"), image), UsageError);
+}
+
 TEST_F(ImageTest, ExrIsTheSameFileEveryTime) {
   write_exr(path("a.exr"), sample_image());
   write_exr(path("b.exr"), sample_image());

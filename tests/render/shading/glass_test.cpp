@@ -50,6 +50,15 @@ TEST(Glass, HidesByTheWayThroughIt) {
   }
 }
 
+TEST(Glass, WhereNothingCastsIsAsThickAsTheScene) {
+  Scene bare = scene_with({});
+  bare.objects.erase(bare.objects.begin());
+  Scene scene = bare;
+  scene.glass = {black(Vec3(0.0), 0.5, 0.6)};
+  const double left = std::pow(0.4, 1.0 / (2.0 * scene.bounds().radius()));
+  EXPECT_NEAR(red_of(scene), left * red_of(bare), 1e-4);
+}
+
 TEST(Glass, EndsAtSurfacesAndHoldsTheEye) {
   const Scene bare = scene_with({});
   // Half in the wall, in the wall, around the eye.
