@@ -1,10 +1,12 @@
 #include "volumes/shadow_glb.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <unordered_map>
 
 #include "mesh/io/little_endian.h"
 #include "penumbra/mesh/error.h"
@@ -21,12 +23,11 @@ struct Part {
 
 std::map<std::uint32_t, Part> parts_of(const ShadowMesh& mesh) {
   std::map<std::uint32_t, Part> parts;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> numbers;
+  std::map<std::uint32_t, std::unordered_map<std::uint32_t, std::uint32_t>> numbers;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const std::uint32_t object = mesh.tags[i].object;
     Part& part = parts[object];
-    std::vector<std::uint32_t>& number = numbers[object];
-    if (number.empty()) number.assign(mesh.positions.size(), 0);  // 0: not met; else one more
+    std::unordered_map<std::uint32_t, std::uint32_t>& number = numbers[object];  // 0: not met; else one more
     for (const std::uint32_t v : mesh.triangles[i]) {
       if (number[v] == 0) {
         part.vertices.push_back(v);
@@ -48,7 +49,9 @@ class Writer {
   void add(std::uint32_t object, const Part& part) {
     Bounds box;
     for (const std::uint32_t v : part.vertices) box.add(mesh_.positions[v]);
-    const Vec3 middle = box.center();
+    const Vec3 middle = box.center(), half = box.high - middle;
+    if (!(std::max({half.x, half.y, half.z}) <= std::numeric_limits<float>::max()))
+      throw UsageError("the volume is too large for the single precision of a .glb; write .ply");
     const std::size_t positions = data_.size();
     Bounds written;
     for (const std::uint32_t v : part.vertices) {

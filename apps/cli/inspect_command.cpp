@@ -44,7 +44,9 @@ PolygonSoup read(const Arguments& arguments) {
 
 RepairResult repair_file(const Arguments& arguments, const PolygonSoup& soup) {
   RepairResult result = repair(soup.positions, triangulate(soup).triangles);
-  write_mesh(arguments.repair, TriangleMesh::build(result.positions, result.triangles));
+  // What could not be mended stays as it is.
+  write_mesh(arguments.repair,
+             TriangleMesh::build(result.positions, result.triangles, {.flip_inside_out = false}));
   return result;
 }
 

@@ -64,6 +64,11 @@ ThreadLimit::ThreadLimit(int threads)
     : control_(threads > 0 ? std::make_unique<Control>(threads) : nullptr) {}
 ThreadLimit::~ThreadLimit() = default;
 
+std::string require_finite(const std::string& text) {
+  double value = 0.0;
+  return CLI::detail::lexical_cast(text, value) && std::isfinite(value) ? "" : text + " is no finite number";
+}
+
 void add_strict_option(CLI::App& command, SceneInput& input) {
   command.add_flag("--strict", input.strict, "Unknown keys of the scene file are errors, not warnings")
       ->group("General");
@@ -79,9 +84,11 @@ void add_scene_input(CLI::App& command, SceneInput& input) {
   command
       .add_option("--light-radius", input.light_radius,
                   "Radius of point and spot lights of glTF, scene units")
+      ->check(require_finite)
       ->check(CLI::NonNegativeNumber)
       ->group("General");
   command.add_option("--sun-angle", input.sun_angle, "Angle of directional lights of glTF, degrees")
+      ->check(require_finite)
       ->check(CLI::Range(0.0, 179.0))
       ->group("General");
 }

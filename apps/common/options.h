@@ -43,6 +43,8 @@ struct SceneInput {
   /// Of glTF files; commands that use texture coordinates have an option for it.
   std::optional<int> uv_set{};
 };
+/// For CLI::Option::check: CLI11's own checks of ranges let NaN through.
+std::string require_finite(const std::string& text);
 void add_strict_option(CLI::App& command, SceneInput& input);
 /// SCENE as a positional argument, --strict, --light-radius and --sun-angle.
 void add_scene_input(CLI::App& command, SceneInput& input);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <utility>
 
 #include "penumbra/mesh/error.h"
 
@@ -152,6 +153,14 @@ std::string TextCursor::rest_of_line() {
   for (std::string_view token = token_of_line(); !token.empty(); token = token_of_line())
     rest.append(rest.empty() ? "" : " ").append(token);
   return rest;
+}
+
+std::string TextCursor::name_of_line() {
+  const char comment = std::exchange(comment_, '\0');
+  std::string name = rest_of_line();
+  comment_ = comment;
+  const std::size_t end = comment ? name.find(std::string{' ', comment, ' '}) : std::string::npos;
+  return name.substr(0, end);
 }
 
 std::string_view TextCursor::token() {

@@ -41,6 +41,8 @@ class TextCursor {
   std::string_view token_of_line();
   /// The tokens that are left on this line, one blank between them.
   std::string rest_of_line();
+  /// The same as a name, which may have the comment's character: a comment begins where blanks are around it.
+  std::string name_of_line();
   /// The next token, on whichever line; empty at the end of the text.
   std::string_view token();
   void skip_line();

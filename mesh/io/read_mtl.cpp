@@ -30,7 +30,7 @@ MaterialLibrary read_mtl(std::span<const std::byte> bytes) {
   while (!cursor.at_end()) {
     const std::string_view keyword = cursor.token_of_line();
     if (keyword == "newmtl") {
-      library.materials.push_back({.name = cursor.rest_of_line()});
+      library.materials.push_back({.name = cursor.name_of_line()});
     } else if (keyword == "Kd" && !library.materials.empty()) {
       library.materials.back().color = read_color(cursor);
     } else if (keyword == "map_Kd") {

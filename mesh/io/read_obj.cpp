@@ -78,9 +78,9 @@ PolygonSoup read_obj(std::span<const std::byte> bytes, const std::string& name) 
     } else if (keyword == "f") {
       read_face(cursor, soup);
     } else if (keyword == "usemtl") {
-      soup.use_material(cursor.rest_of_line());
+      soup.use_material(cursor.name_of_line());
     } else if (keyword == "mtllib") {
-      soup.name_material_file(cursor.rest_of_line());
+      soup.name_material_file(cursor.name_of_line());
     } else {
       name_ignored(keyword, soup);
     }

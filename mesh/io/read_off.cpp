@@ -68,6 +68,18 @@ void read_normal(TextCursor& cursor, SoupBuilder<TextCursor>& soup) {
   soup.add_normal(n);
 }
 
+/// The number of edges means nothing. It may be missing, or stand on a line of its own.
+void skip_edge_count(TextCursor& cursor) {
+  const bool on_this_line = !cursor.token_of_line().empty();
+  cursor.skip_line();
+  if (on_this_line) return;
+  TextCursor ahead = cursor;
+  std::int64_t edges = 0;
+  if (!parse_number(ahead.token(), edges) || !ahead.token_of_line().empty()) return;
+  ahead.skip_line();
+  cursor = ahead;
+}
+
 void check_count(const TextCursor& cursor, std::size_t count, std::size_t bytes_each, const char* what) {
   if (count > (cursor.remaining() + 1) / bytes_each) {
     cursor.fail("the header promises " + std::to_string(count) + " " + what + ", more than the file can hold",
@@ -91,7 +103,7 @@ PolygonSoup read_off(std::span<const std::byte> bytes, const std::string& name) 
     cursor.fail("the number of faces is negative", "correct the header");
   }
   const auto faces = static_cast<std::size_t>(face_count);
-  cursor.skip_line();  // the number of edges, if given, means nothing
+  skip_edge_count(cursor);
   check_count(cursor, vertices, 6, "vertices");
   check_count(cursor, faces, 2, "faces");
   soup.reserve(vertices, 0);

@@ -139,9 +139,11 @@ std::optional<std::vector<std::uint32_t>> SquareTriangulation::insert_segment(st
 }
 
 /// Makes a side of the segment's piece from a to the first point on it, which is returned. Nothing where that
-/// crosses a fixed side.
+/// crosses a fixed side, or where products underflow, so that no sign can be trusted.
 std::optional<std::uint32_t> SquareTriangulation::advance(std::uint32_t a, std::uint32_t b) {
-  for (std::uint32_t t = at_[a];;) {
+  const std::uint32_t first = at_[a];
+  std::uint32_t t = first;
+  do {
     const std::uint32_t k = corner_of(t, a);
     const std::uint32_t r = triangles_[t].v[(k + 1) % 3], l = triangles_[t].v[(k + 2) % 3];
     const int of_r = turn(a, b, r);
@@ -153,7 +155,8 @@ std::optional<std::uint32_t> SquareTriangulation::advance(std::uint32_t a, std::
       return end;
     }
     t = triangles_[t].n[(k + 1) % 3];
-  }
+  } while (t != first);
+  return std::nullopt;
 }
 
 /// The sides that the segment from the corner to b crosses, as far as the first point on it.

@@ -192,7 +192,9 @@ Scene scene_around(const TriangleMesh& mesh, const std::string& name) {
   scene.picture = {.ambient = Vec3(kAmbient), .antialias = kAntialias};
   scene.objects.push_back(floor_for(bounds, points));
   scene.objects.push_back({.name = name, .mesh = mesh, .albedo = kMeshAlbedo, .casts = true});
-  scene.document = document_of(scene, disk, name).dump();
+  // A file's name may be anything but UTF-8.
+  scene.document =
+      document_of(scene, disk, name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   return scene;
 }
 

@@ -45,10 +45,11 @@ struct SceneObject {
   FaceColors face_albedo{};
   /// Only the shadow on it is shown: black, as opaque as the shadow is dark.
   bool shadow_catcher = false;
-  /// From which distance from the middle of its bounds it fades into the background, and at which it has
-  /// faded. 0: nowhere.
+  /// From which distance from a point (the middle of its bounds, unless it is given) it fades into the
+  /// background, and at which it has faded. 0: nowhere.
   struct Fade {
     double from = 0.0, to = 0.0;
+    std::optional<Vec3> middle{};
   } fade{};
 
   const Vec3& albedo_of(std::uint32_t face) const {

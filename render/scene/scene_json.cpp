@@ -2,6 +2,7 @@
 #include "render/scene/scene_json.h"
 
 #include <cmath>
+#include <span>
 
 #include "mesh/corner_normals.h"
 #include "penumbra/mesh/error.h"
@@ -120,6 +121,7 @@ void add_heightfield(const SceneNode& node, const SceneNode& file, const std::fi
   if (const auto tile = node.find("tile")) options.side = read_tile_side(*tile);
   if (const auto smooth = node.find("smooth")) options.smooth = smooth->boolean();
   const Transform transform = read_transform(node);
+  const std::size_t first = scene.objects.size();
   try {
     for (HeightTile& tile : make_tiles(read_heights(folder / name), transform, options)) {
       SceneObject& added = scene.objects.emplace_back(object);
@@ -130,6 +132,10 @@ void add_heightfield(const SceneNode& node, const SceneNode& file, const std::fi
   } catch (const MeshError& e) {
     throw MeshError(file.located(e.what()));
   }
+  const std::span tiles = std::span(scene.objects).subspan(first);
+  Bounds whole;
+  for (const SceneObject& tile : tiles) whole.add(tile.mesh.bounds());
+  for (SceneObject& tile : tiles) tile.fade.middle = whole.center();
   scene.files.push_back(folder / name);
 }
 

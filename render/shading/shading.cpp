@@ -86,7 +86,8 @@ struct Material {
       : albedo_over_pi(object.albedo / kPi),
         is_plain(object.face_albedo.of_face.empty() && object.corner_normals.empty() &&
                  !(object.fade.to > 0.0) && !object.shadow_catcher && picture.ambient == Vec3(0.0)),
-        middle(object.fade.to > 0.0 ? object.mesh.bounds().center() : Vec3(0.0)) {}
+        middle(object.fade.to > 0.0 ? object.fade.middle.value_or(object.mesh.bounds().center())
+                                    : Vec3(0.0)) {}
 };
 
 using Rgba = std::array<float, 4>;

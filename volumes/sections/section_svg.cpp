@@ -119,8 +119,7 @@ class Sheet {
   void write_drawing(std::ostream& out) const {
     const double left = 0.5 * (width_ - drawn_.x);
     out << "<svg x=\"" << left << "\" y=\"" << kMargin << "\" width=\"" << drawn_.x << "\" height=\""
-        << drawn_.y << "\" viewBox=\"" << box_.low.x << ' ' << box_.low.y << ' ' << box_.high.x - box_.low.x
-        << ' ' << box_.high.y - box_.low.y
+        << drawn_.y << "\" viewBox=\"0 0 " << box_.high.x - box_.low.x << ' ' << box_.high.y - box_.low.y
         << "\" overflow=\"visible\" stroke-linejoin=\"round\" stroke-width=\"" << 1.25 / scale_
         << "\" fill-rule=\"evenodd\">\n";
     for (std::size_t k = 0; k < order_.size(); ++k)
@@ -134,7 +133,7 @@ class Sheet {
     out << "<path fill=\"" << (closed ? colors.fill : "none") << "\" stroke=\"" << colors.line << "\" d=\"";
     for (const SectionCurve& curve : s.section.curves) {
       for (std::size_t i = 0; i < curve.points.size(); ++i) {
-        const Vec3 p = flat(curve.points[i]);
+        const Vec3 p = flat(curve.points[i]) - box_.low;
         out << (i == 0 ? "M" : "L") << p.x << ' ' << p.y;
       }
       out << (curve.closed ? "Z" : "");

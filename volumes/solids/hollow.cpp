@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace penumbra::detail {
@@ -29,10 +30,14 @@ bool CasterBodies::hold(const Vec3& p) const {
   if (!holds(tree_.bounds(), p)) return false;
   const double far = 4.0 * tree_.bounds().radius();
   std::vector<Crossing> found;
-  for (int k = 0;; ++k) {  // another way where the segment touches an edge
+  // Another way where the segment touches an edge. A point in a face's plane is in the face's way whichever
+  // it is: then it is moved, by a hair first.
+  constexpr int kExact = 8;
+  for (int k = 0;; ++k) {
     bool clean = true;
-    tree_.crossings(p, p + far * glm::normalize(Vec3(0.31 + 0.017 * k, 0.87, 0.23 - 0.029 * k)), found,
-                    clean);
+    const Vec3 way = glm::normalize(Vec3(0.31 + 0.017 * k, 0.87, 0.23 - 0.029 * k));
+    const Vec3 from = k < kExact ? p : p + std::ldexp(far, std::min(k - kExact, 30) - 50) * way;
+    tree_.crossings(from, p + far * way, found, clean);
     if (!clean) continue;
     int sum = 0;
     for (const Crossing& c : found)

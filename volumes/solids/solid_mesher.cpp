@@ -211,8 +211,11 @@ class Mesher {
       if (!enclosed[face.component] && corners_inside(tetrahedron_at(grid, face.corners[0])) == 4)
         enclosed[face.component] = 1;
     for (const CasterTree::Face& face : tree_.faces()) {
-      if (enclosed[face.component] || is_behind(request_.light, face.corners[0])) continue;
-      for (const std::uint32_t v : tetrahedron_at(grid, face.corners[0])) grid.set_inside(v, true);
+      if (enclosed[face.component]) continue;
+      const auto lit = std::ranges::find_if(
+          face.corners, [&](const Vec3& corner) { return !is_behind(request_.light, corner); });
+      if (lit == face.corners.end()) continue;
+      for (const std::uint32_t v : tetrahedron_at(grid, *lit)) grid.set_inside(v, true);
       enclosed[face.component] = 1;
     }
   }

@@ -71,6 +71,7 @@ void add_field_command(CLI::App& app) {
                    ->check(CLI::Range(2, 2048))
                    ->capture_default_str();
   command.add_option("--voxel", arguments->voxel, "Distance of points, scene units")
+      ->check(require_finite)
       ->check(CLI::PositiveNumber)
       ->excludes(grid);
   command.add_option("--light", arguments->light, "The light, by name or number; otherwise the first")

@@ -74,11 +74,13 @@ void add_section_command(CLI::App& app) {
       ->required()
       ->delimiter(',')
       ->expected(3)
+      ->check(require_finite)
       ->type_name("X,Y,Z");
   command
       .add_option("--normal", arguments->normal, "Normal of the plane; otherwise 0,1,0: the plane is level")
       ->delimiter(',')
       ->expected(3)
+      ->check(require_finite)
       ->type_name("X,Y,Z");
   command.add_option("--output", arguments->output, "Where the curves go")->type_name("FILE");
   command
