@@ -45,6 +45,18 @@ TEST(Materials, OfPolygons) {
   EXPECT_TRUE(test::parse(kCorners + "f 1 2 3\n", "a.obj").polygon_material.empty());
 }
 
+TEST(Materials, NamesMayHaveTheCommentsCharacter) {
+  const PolygonSoup soup = test::parse(
+      kCorners + "usemtl Material #25\nf 1 2 3\nusemtl Material #26 # the other\nf 1 3 4\n", "a.obj");
+  ASSERT_EQ(soup.materials.size(), 2u);
+  EXPECT_EQ(soup.materials[0].name, "Material #25");
+  EXPECT_EQ(soup.materials[1].name, "Material #26");
+  const detail::MaterialLibrary library =
+      detail::read_mtl(test::bytes_of("newmtl Material #25\nKd 1 0 0\nnewmtl Material #26\nKd 0 1 0\n"));
+  ASSERT_EQ(library.materials.size(), 2u);
+  EXPECT_EQ(library.materials[1].name, "Material #26");
+}
+
 TEST(Materials, ComeFromFilesBesideTheMesh) {
   const TemporaryFolder folder;
   write_text(folder / "my colors.mtl", "newmtl red\nKd 1 0 0\nmap_Kd red.png\nnewmtl unused\nKd 0 0 0\n");

@@ -35,6 +35,15 @@ TEST(OddFiles, NamesWhatHasToBeUnpackedOrConverted) {
   expect("PK\x03\x04 and so on", "a.obj", "zip");
 }
 
+TEST(OddFiles, CountsOfOffMayStandOnLinesOfTheirOwn) {
+  const std::string rest = "0.5 1 2\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const char* counts : {"3 1 0\n", "3 1\n", "3\n1\n0\n", "3 1\n0\n", "3\n1 0\n", "3 1 # two\n"}) {
+    const PolygonSoup soup = parse(std::string("OFF\n") + counts + rest, "a.off");
+    EXPECT_EQ(soup.positions[0], Vec3(0.5, 1, 2)) << counts;
+    EXPECT_EQ(soup.polygon_count(), 1u) << counts;
+  }
+}
+
 TEST(OddFiles, NamesWhatIsIgnored) {
   const auto ignored = [](const std::string& text, const std::string& name) {
     return parse(text, name).ignored;

@@ -117,6 +117,12 @@ TEST(PolygonTriangles, AtAnyScale) {
   }
 }
 
+// Products of these coordinates underflow: no sign of a turn is known.
+TEST(PolygonTriangles, CornersFarCloserThanOthersEndInAFan) {
+  const std::vector<Vec3> corners = {{0, 0, 0}, {1e-200, 0, 0}, {0, 1e-200, 0}, {-1, 1, 0}, {0.5, 1, 0}};
+  EXPECT_EQ(divide_polygon(corners).triangles.size(), 3u);
+}
+
 TEST(PolygonTriangles, CrossingAndDegenerateOnesAreFans) {
   const std::vector<Vec3> bow_tie = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(divide_polygon(bow_tie).triangles, fan(4));

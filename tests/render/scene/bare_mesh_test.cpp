@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "penumbra/mesh/error.h"
 #include "penumbra/mesh/shapes.h"
 #include "render/light/light_integrals.h"
 #include "render/scene/default_scene.h"
@@ -29,6 +30,17 @@ bool sees(const Camera& camera, const Vec3& p, double aspect) {
   const double limit = depth * std::tan(camera.fov_y_degrees * 3.14159265358979 / 360) * 0.98;
   return depth > 0 && std::abs(glm::dot(d, glm::cross(right, forward))) < limit &&
          std::abs(glm::dot(d, right)) < limit * aspect;
+}
+
+TEST(BareMesh, AndScenesMayBeginWithAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF", off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(scene_of(mark + off).objects.size(), 2u);
+  EXPECT_THROW(parse_scene_or_mesh(mark + R"({"version": 1, "objects": []})", "", "s"), SceneError);
+}
+
+TEST(BareMesh, NamesMayBeAnyBytes) {
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_FALSE(parse_scene_or_mesh(off, "", "b\xFCrste.off").scene.document.empty());
 }
 
 TEST(BareMesh, GetsFloorLightAndCameraInProportion) {

@@ -162,6 +162,18 @@ TEST(SolidShapes, HollowSolidsLeaveTheBodiesOut) {
   }
 }
 
+// Points of the grid lie in the box's lower face: there is no way from them that the face does not touch.
+TEST(SolidShapes, HollowWhereAFaceLiesInTheGrid) {
+  const TriangleMesh box = make_box(Vec3(0.0), Vec3(6.0, 12.0, 12.0));
+  const double far = 2.0 * glm::length(Vec3(6.0, 12.0, 12.0));
+  const Bounds bound{Vec3(-6.0 - far, -12.0 - far, -12.0 - far), Vec3(6.0 + far, 12.0 + far, 12.0 + far)};
+  const ShadowSolid solid = solid_of({box}, DistantLight{{0.0, -1.0, 0.0}, 0.5}, {Kind::kUmbra},
+                                     {.tolerance = 0.51, .bound = bound, .hollow = true});
+  expect_sound(solid.mesh);
+  EXPECT_FALSE(SolidInside(solid.mesh).contains(Vec3(0.0)));
+  EXPECT_TRUE(SolidInside(solid.mesh).contains(Vec3(0.5, -14.0, 0.3)));
+}
+
 TEST(SolidShapes, RandomScenesGiveSoundSolidsOrAreRefusedByName) {
   std::size_t made = 0;
   const char* more = std::getenv("PENUMBRA_SOLID_SCENES");  // 500, say

@@ -94,6 +94,15 @@ TEST_F(Heightfield, TilesHaveAllTrianglesOnceAndShareTheirBorders) {
   EXPECT_EQ(all(tiled), all(whole));
 }
 
+TEST_F(Heightfield, TilesFadeAsOne) {
+  write_npy("h.npy", bumps(9, 9));
+  const Scene whole = scene_of(R"("heightfield": "h.npy", "fade": [1, 3])"),
+              tiled = scene_of(R"("heightfield": "h.npy", "fade": [1, 3], "tile": 4)");
+  ASSERT_GT(tiled.objects.size(), 1u);
+  for (const SceneObject& tile : tiled.objects)
+    EXPECT_EQ(tile.fade.middle, whole.objects[0].mesh.bounds().center());
+}
+
 TEST_F(Heightfield, SmoothNormalsDoNotSeeTiles) {
   write_npy("h.npy", bumps(9, 9));
   const auto normals = [this](const std::string& tile) {
