@@ -14,7 +14,8 @@ WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 1000, 480, 66, 52, 14, 164
 # Readable on white and on dark.
 COLORS = {"silhouette": "#2f81d8", "reference": "#85898f", "rays": "#d88a1d", "hard": "#9a9f22", "none": "#b565c1",
           "dbuffer": "#d8473d", "occlusion-textures": "#1aa37c"}
-OTHERS = ["#8a5a32", "#c4569b", "#5b6ee1", "#3aa0b8", "#6f9a3a"]
+# Squares, so that a color may be that of a circle, too.
+OTHERS = ["#5b6ee1", "#c4569b", "#3aa0b8", "#8a5a32", "#6f9a3a", "#d88a1d", "#2f81d8", "#d8473d", "#1aa37c", "#b565c1", "#9a9f22"]
 LEAST = 5e-5  # what references of 4,096 rays tell from 0
 
 
@@ -55,6 +56,13 @@ def number(value):
     return f"{value:.10f}".rstrip("0").rstrip(".")
 
 
+def mark(x, y, size, color, is_round, more=""):
+    """A circle or a square of the same area."""
+    shape = (f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{size}"' if is_round else
+             f'<rect x="{x - .9 * size:.1f}" y="{y - .9 * size:.1f}" width="{1.8 * size:.1f}" height="{1.8 * size:.1f}"')
+    return f'{shape} fill="{color}"{more}'
+
+
 def svg_of(points):
     xs, ys = [p[0] for p in points], [p[1] for p in points]
     x, x_ticks = axis(min(xs) / 1.2, max(xs) * 1.2, LEFT, WIDTH - RIGHT)
@@ -75,10 +83,12 @@ def svg_of(points):
     colors = {m: COLORS.get(m) or next(others, "#777") for m in methods}
     best = set(front_of(points))
     for p in points:
-        out.append(f'<circle cx="{x(p[0]):.1f}" cy="{y(p[1]):.1f}" r="{6 if p in best else 4}" fill="{colors[p[2]]}" '
-                   f'fill-opacity="{1 if p in best else .55}"><title>{p[3]}: {p[0]:.1f} ms, {p[1]:.2g}</title></circle>')
+        is_round = p[2] in COLORS
+        out.append(mark(x(p[0]), y(p[1]), 6 if p in best else 4, colors[p[2]], is_round,
+                        f' fill-opacity="{1 if p in best else .55}"><title>{p[3]}: {p[0]:.1f} ms, {p[1]:.2g}</title>'
+                        f'</{"circle" if is_round else "rect"}>'))
     for k, m in enumerate(methods):
-        out.append(f'<circle cx="{WIDTH - RIGHT + 18}" cy="{TOP + 16 + 21 * k}" r="5" fill="{colors[m]}"/>'
+        out.append(mark(WIDTH - RIGHT + 18, TOP + 16 + 21 * k, 5, colors[m], m in COLORS, "/>") +
                    f'<text x="{WIDTH - RIGHT + 30}" y="{TOP + 20 + 21 * k}">{m}</text>')
     out.append(f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 10}" text-anchor="middle">milliseconds a frame</text>'
                f'<text transform="translate(16 {HEIGHT / 2}) rotate(-90)" text-anchor="middle">error where the shadow is soft (RMSE)</text></svg>')
