@@ -10,7 +10,7 @@ import math
 import sys
 from collections import defaultdict
 
-WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 1000, 480, 66, 52, 14, 164
+WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 1000, 480, 66, 52, 14, 176
 # Readable on white and on dark.
 COLORS = {"silhouette": "#2f81d8", "reference": "#85898f", "rays": "#d88a1d", "hard": "#9a9f22", "none": "#b565c1",
           "dbuffer": "#d8473d", "occlusion-textures": "#1aa37c"}
