@@ -21,14 +21,14 @@ Vec3 color_of(const py::object& color, const char* name) {
 template <class T>
 T made(std::string name, LightShape shape, const py::object& radiance) {
   require_valid(shape);
-  if (!name.empty() && !detail::is_light_name(name))
+  if (!name.empty() && !penumbra::detail::is_light_name(name))
     throw UsageError("the name \"" + name + "\" is not of letters, digits, '-' and '_', at most 200");
   T light;
   light.name = std::move(name);
   light.shape = shape;
   light.radiance = color_of(radiance, "radiance");
   for (int k = 0; k < 3; ++k)
-    if (!(light.radiance[k] >= 0.0 && light.radiance[k] <= detail::kMostNumber))
+    if (!(light.radiance[k] >= 0.0 && light.radiance[k] <= penumbra::detail::kMostNumber))
       throw UsageError("radiance is not from 0 to 1e100");
   return light;
 }
