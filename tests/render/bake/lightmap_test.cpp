@@ -50,7 +50,7 @@ class Room {
     std::vector<TriangleMesh> meshes;
     for (const SceneObject& object : scene.objects) meshes.push_back(object.mesh);
     oracle_.emplace(meshes);
-    const std::string path = testing::TempDir() + "penumbra-room-" + std::to_string(getpid()) + ".obj";
+    const std::string path = ::testing::TempDir() + "penumbra-room-" + std::to_string(getpid()) + ".obj";
     write_atlas_mesh(path, scene.objects, atlas);
     faces = test::read_textured_faces(path, atlas.width, atlas.height);
     std::filesystem::remove(path);

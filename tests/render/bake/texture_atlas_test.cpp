@@ -180,7 +180,7 @@ TEST(TextureAtlas, RefusesWhatDoesNotFit) {
 // A corner lies on the opposite edge but for a rounding: turned into its chart, the face has no height.
 TEST(TextureAtlas, ASliverGetsATexel) {
   const std::vector<Vec3> points{{0, 0, 0}, {1, 1, 0}, {0.8125, std::nextafter(0.8125, 1.0), 0}};
-  const auto sliver = TriangleMesh::build(points, {{0, 1, 2}});
+  const auto sliver = TriangleMesh::build(points, std::vector<IndexedTriangle>{{0, 1, 2}});
   for (const auto& objects : {objects_of({sliver}), objects_of({sliver, make_box({5, 0, 0}, {1, 1, 1})})}) {
     const TextureAtlas atlas = make_atlas(objects, {.size = 64});
     for (const std::vector<FaceUv>& faces : atlas.uv)
