@@ -43,7 +43,7 @@ TEST_F(PlanCommandTest, APlanIsDoneAsItIsEdited) {
   fine({"plan", scene_, "--size", "64x48", "--output", path("plan.json")});
   const Outcome over = run({"render", scene_, "--plan", path("plan.json"), "--stats", path("plan.json")});
   EXPECT_EQ(over.code, 2);
-  EXPECT_NE(over.err.find("same file"), std::string::npos) << over.err;
+  EXPECT_NE(over.err.find("would replace the input"), std::string::npos) << over.err;
   Json plan = Json::parse(read_text(file("plan.json")));
   plan["lights"][0]["method"] = "reference";
   plan["lights"][0]["options"] = {{"samples", 9}};

@@ -269,7 +269,7 @@ TEST(Gltf, ComplaintsSayWhatWhereAndWhatToDo) {
            {"/extensions/KHR_lights_punctual/lights/1/extras/radius", -1.0, "radius of -1"},
            {"/extensions/KHR_lights_punctual/lights/0/extras/angle_degrees", 180.0, "180 degrees"},
            {"/extensions/KHR_lights_punctual/lights/1/extras/radius", 1e-170, "is so small"},
-           {"/nodes/4/translation", {0, 1e200, 0}, "/lights/"},
+           {"/nodes/5/translation", {0, 1e200, 0}, "light"},
            {"/nodes/0/translation", {1e300, 0, 0}, "unit of length"}}) {
     Json document = nodes_file();
     const Json::json_pointer where(damage.where);
