@@ -78,7 +78,8 @@ double longest_of(const std::vector<Chart>& charts) {
 }
 
 void require_area(const std::vector<Chart>& charts) {
-  if (area_of(charts) > 0.0) return;  // NaN is not
+  const double area = area_of(charts);
+  if (area > 0.0 && std::isfinite(area)) return;  // of what has no normal, for it is too small, it is neither
   throw UsageError("no face is large enough to be put in charts; use another unit of length");
 }
 

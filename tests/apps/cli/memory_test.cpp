@@ -53,6 +53,8 @@ TEST_P(MemoryTest, EndsWellOrSaysSo) {
     const Outcome outcome = run_in(limit, GetParam().words);
     if (outcome.code == 0) continue;
     ++refused;
+    // Mesa's scanner of shaders ends the program itself, in its own words.
+    if (outcome.err.starts_with("out of dynamic memory in yy")) continue;
     EXPECT_EQ(outcome.code, 1) << outcome.err;
     EXPECT_TRUE(outcome.err.ends_with(kLine)) << outcome.err;
     // Mesa's compiler says it in its own words before it gives up.

@@ -48,7 +48,8 @@ TEST(GivenAtlas, AFaceWithoutAreaGetsNoTexel) {
   SceneObject object{.name = "line",
                      .mesh = TriangleMesh::build(points, std::vector<IndexedTriangle>{{0, 1, 2}})};
   object.corner_uv.push_back({glm::dvec2(0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0)});
-  for (const glm::dvec2& p : given_atlas({object}, {.size = 64}).uv[0][0]) EXPECT_EQ(p, glm::dvec2(0.0));
+  const TextureAtlas atlas = given_atlas({object}, {.size = 64});
+  for (const glm::dvec2& p : atlas.uv[0][0]) EXPECT_EQ(p, glm::dvec2(0.0));
 }
 
 TEST(GivenAtlas, TwoObjectsSideBySideAreTaken) {
