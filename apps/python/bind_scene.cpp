@@ -13,10 +13,10 @@ namespace {
 std::size_t add(PythonScene& scene, const py::object& vertices, const py::object& triangles,
                 const py::object& transform, bool casts, const py::object& albedo, const std::string& name) {
   const bool gray = PyFloat_Check(albedo.ptr()) || PyLong_Check(albedo.ptr());
-  return scene.add(vertices, triangles, transform,
-                   {.name = name,
-                    .albedo = gray ? Vec3(albedo.cast<double>()) : vector_of(albedo, "albedo"),
-                    .casts = casts});
+  const Vec3 color = gray ? Vec3(albedo.cast<double>()) : vector_of(albedo, "albedo");
+  for (int k = 0; k < 3; ++k)
+    if (!(color[k] >= 0.0 && color[k] <= 1.0)) throw UsageError("albedo is not between 0 and 1");
+  return scene.add(vertices, triangles, transform, {.name = name, .albedo = color, .casts = casts});
 }
 
 py::tuple mesh_of(const PythonScene& scene, std::ptrdiff_t object) {

@@ -133,7 +133,8 @@ void CaseStudy::measure_methods(std::span<const Setting> settings, UnitResult& r
     const bool by_default = settings[k].varied.empty() && measured[k].refused.empty();
     const double median = quartiles_of(measured[k].frames).median;
     if (options_.memory && !scene_path_.empty() && by_default && median < kMostForMemory)
-      if (const auto peak = peak_memory(scene_path_.string(), case_.view, settings[k]))
+      if (const auto peak =
+              peak_memory(scene_path_.string(), case_.view, settings[k], options_.judge.threads))
         row["peak_mib"] = *peak;
     result.rows.push_back(rounded(std::move(row)));
   }

@@ -27,6 +27,7 @@ json about_of(const StudyOptions& options, int ranks) {
                 {"version", PENUMBRA_VERSION},
                 {"commit", options.commit},
                 {"frames", options.rounds},
+                {"longest_frame_s", options.longest_frame_s},
                 {"samples", options.judge.samples},
                 {"resampled", options.judge.resample},
                 {"double_pixels", options.judge.double_pixels},

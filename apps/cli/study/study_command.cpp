@@ -6,6 +6,7 @@
 #include "apps/cli/ranks/shared_work.h"
 #include "apps/cli/study/peers/embree_loop.h"
 #include "apps/cli/study/peers/peer.h"
+#include "apps/cli/study/pictures/study_pictures.h"
 #include "apps/cli/study/study.h"
 #include "apps/common/messages.h"
 #include "apps/common/options.h"
@@ -45,8 +46,9 @@ void require_scenes(const StudyOptions& study) {
   for (std::size_t i = 0; i < study.scenes.size(); ++i) {
     if (is_standard(study.scenes[i])) throw UsageError("a study needs scenes as files, not standard input");
     for (std::size_t k = 0; k < i; ++k)
-      if (study.scenes[k].stem() == study.scenes[i].stem())
-        throw UsageError("two scenes are called " + study.scenes[i].stem().string() + "; rename one");
+      if (file_name_of(study.scenes[k].stem().string()) == file_name_of(study.scenes[i].stem().string()))
+        throw UsageError("two scenes are called " + study.scenes[k].stem().string() + " and " +
+                         study.scenes[i].stem().string() + ", which is one name for pictures; rename one");
   }
 }
 

@@ -141,8 +141,23 @@ void StudyRecord::read() {
   if (cut) write_text(file(), kept);
 }
 
+void StudyRecord::forget_another(const json& seen) {
+  const auto is_another = [&](const json& other) {
+    return other.at("id") == seen.at("id") && other.value("digest", "") != seen.value("digest", "");
+  };
+  if (std::erase_if(cases_, is_another) == 0) return;
+  std::erase_if(rows_, [&](const json& row) {
+    const bool is_its = row.at("case") == seen.at("id");
+    if (is_its) keys_.erase(row.at("key").get<std::string>());
+    return is_its;
+  });
+}
+
 void StudyRecord::take(const json& line) {
-  if (line.contains("case")) cases_.push_back(line["case"]);
+  if (line.contains("case")) {
+    forget_another(line["case"]);
+    cases_.push_back(line["case"]);
+  }
   if (!line.contains("row")) return;
   rows_.push_back(line["row"]);
   keys_.insert(line["row"].at("key").get<std::string>());

@@ -36,6 +36,9 @@ class StudyRecord {
   void add_case(const nlohmann::json& seen);
   void add_row(const nlohmann::json& row);
   void take(const nlohmann::json& line);
+  /// Drops what was measured of another scene of that name, or of the same before it was changed: its
+  /// pictures are replaced.
+  void forget_another(const nlohmann::json& seen);
   void append(const nlohmann::json& line) const;
   std::filesystem::path file() const { return folder_ / "rows.jsonl"; }
 

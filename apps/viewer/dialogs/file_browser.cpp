@@ -34,7 +34,7 @@ void FileBrowser::show(const std::filesystem::path& folder) {
 }
 
 void FileBrowser::enter(const std::filesystem::path& folder) {
-  folder_ = folder;
+  folder_ = folder.has_filename() ? folder : folder.parent_path();  // without a slash at its end
   typed_ = folder.string();
   selected_.clear();
   trouble_.clear();

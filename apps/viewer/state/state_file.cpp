@@ -65,8 +65,11 @@ nlohmann::json viewer_settings(const State& state) {
 // A path that leads from the new file's folder to what the old one named.
 std::string moved_path(const std::string& mesh, const std::filesystem::path& from_folder,
                        const std::filesystem::path& to_folder) {
-  const std::filesystem::path absolute = std::filesystem::absolute(from_folder / mesh).lexically_normal();
-  return absolute.lexically_proximate(std::filesystem::absolute(to_folder).lexically_normal()).string();
+  // Links are followed: the system takes .. from where they lead.
+  const auto real = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  return real(from_folder / mesh).lexically_proximate(real(to_folder)).string();
 }
 
 // The objects of a document made for a bare mesh leave out the floor, which has no file.
@@ -150,10 +153,10 @@ void read_viewer_settings(const nlohmann::json& settings, State& state) {
     if (settings.value("shown", "") == name) state.shown = value;
   for (const auto& [value, name] : kCutAxes)
     if (settings.value("cut_axis", "") == name) state.overlays.cut_axis = value;
-  state.divider = settings.value("divider", state.divider);
+  state.divider = std::clamp(settings.value("divider", state.divider), 0.02, 0.98);
   state.exposure = settings.value("exposure", state.exposure);
-  state.difference_scale = settings.value("difference_scale", state.difference_scale);
-  state.overlays.cut = settings.value("cut", state.overlays.cut);
+  state.difference_scale = std::clamp(settings.value("difference_scale", state.difference_scale), 0.005, 1.0);
+  state.overlays.cut = std::clamp(settings.value("cut", state.overlays.cut), 0.0, 1.0);
   state.overlays.detail = std::clamp(settings.value("detail", state.overlays.detail), kFinest, kCoarsest);
   state.aim = settings.value("aim", state.aim);
   state.probe = settings.value("probe", state.probe);

@@ -185,6 +185,10 @@ TEST_F(StudyTest, AnotherSceneOfTheSameNameIsMeasured) {
   ASSERT_EQ(study({}, "hard").code, 0);
   write_scene("0.6");
   EXPECT_NE(study({}, "hard").out.find("1 row measured"), std::string::npos);
+  // Its pictures are replaced, and so is what was measured of the other.
+  EXPECT_EQ(table()["cases"].size(), 1u);
+  EXPECT_EQ(table()["rows"].size(), 1u);
+  EXPECT_NE(study({}, "hard").out.find("0 rows measured"), std::string::npos);
 }
 
 TEST_F(StudyTest, ErrorsAreTheSameAgain) {
@@ -202,6 +206,7 @@ TEST_F(StudyTest, RefusesWhatItCannotMeasure) {
   EXPECT_EQ(run({"study", scene_}).code, 2);
   EXPECT_EQ(run({"study", path("missing.json"), "--output", path("out")}).code, 3);
   EXPECT_EQ(run({"study", scene_, scene_, "--output", path("out")}).code, 2);
+  EXPECT_EQ(run({"study", path("room_1.json"), path("room-1.json"), "--output", path("out")}).code, 2);
   EXPECT_EQ(run({"study", "-", "--output", path("out")}).code, 2);
 }
 

@@ -76,6 +76,8 @@ def test_transforms(matrix, message):
     (lambda: penumbra.DistantLight((0, -1, 0), 180), "angle"),
     (lambda: penumbra.RectangleLight((0, 2, 0), (0, -1, 0), (0, 1, 0), (1, 1)), "tangent"),
     (lambda: penumbra.Camera((0, 0, 0), (1, 0, 0), fov_y_degrees=0), "fov_y_degrees"),
+    (lambda: penumbra.Scene().add(V, F, albedo=NAN), "albedo"),
+    (lambda: penumbra.Scene().add(V, F, albedo=(0, 0.5, 80)), "albedo"),
     (lambda: penumbra.Camera((0, 0, 0), (0, 0, 0)), "eye equals target"),
     (lambda: penumbra.Camera((0, 0, 0), (0, 2, 0), up=(0, 1, 0)), "parallel to the line of sight"),
     (lambda: penumbra.Camera((0, 0, 0), (1, 0, 0), up=(0, 0, 0)), "up is 0"),

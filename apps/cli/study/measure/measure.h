@@ -47,8 +47,9 @@ std::vector<Measured> measure_in_turn(Renderer& renderer, const StudyView& view,
                                       std::span<const Setting> settings, int rounds, TooLong& too_long);
 
 /// Largest resident size, in MiB, of a program of its own that draws one frame: `penumbra render` with this
-/// scene, size and setting. Nothing where that program could not be run.
+/// scene, size and setting, one sample a pixel. `threads`: 0 for all cores. Nothing where that program could
+/// not be run.
 std::optional<double> peak_memory(const std::string& scene_path, const StudyView& view,
-                                  const Setting& setting);
+                                  const Setting& setting, int threads);
 
 }  // namespace penumbra::apps

@@ -43,7 +43,7 @@ Study.errorOf = (row, view) => {
   if (view.error === "flip") return row.error.flip === undefined ? undefined : { value: Math.max(Study.FLOOR, row.error.flip), below: row.error.flip < Study.FLOOR };
   const figures = row.error[view.area], value = figures[view.error];
   const untold = view.error === "rmse" && figures.rmse_low === 0;
-  return { value: Math.max(Study.FLOOR, untold ? Math.max(figures.rmse_high, Study.leastRmse(row.error.samples, figures.pixels)) : value), below: untold || value < Study.FLOOR };
+  return { value: Math.max(Study.FLOOR, untold ? Math.max(figures.rmse_high, figures.pixels > 0 ? Study.leastRmse(row.error.samples, figures.pixels) : 0) : value), below: untold || value < Study.FLOOR };
 };
 /** One line: how the method computes visibility. */
 Study.summaryOf = method => Study.PEERS[method]?.summary || Study.summaries?.[method] || "";

@@ -66,8 +66,8 @@ json pictures_of(const StudyRecord& record) {
 
 /// No part of it ends the script that it stands in.
 std::string script_safe(std::string text) {
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
-    text.replace(at, 2, "<\\/");
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 6))
+    text.replace(at, 1, "\\u003c");
   return text;
 }
 
