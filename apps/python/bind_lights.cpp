@@ -48,7 +48,7 @@ void bind_disk(py::module_& module) {
       R"(A flat disk that shines on the side of its normal; nothing behind its plane is lit.
 
 center: 3 numbers, scene units. normal: where it shines to, any length but 0. radius: scene units; 0 is a point light.
-radiance: one number or linear RGB, W/(m² sr); only pictures depend on it. name: of letters, digits, '-' and '_'.)")
+radiance: one number or linear RGB, W/(m² sr); only pictures depend on it. name: of letters, digits, '-' and '_', at most 200.)")
       .def(py::init([](const py::object& center, const py::object& normal, double radius,
                        const py::object& radiance, const std::string& name) {
              return made<PythonDisk>(

@@ -48,8 +48,7 @@ view, above 0 and below 180.)")
             if (!(fov > 0.0 && fov < 180.0))
               throw UsageError("fov_y_degrees is not between 0 and 180 degrees");
             const Camera camera{vector_of(eye, "eye"), vector_of(target, "target"), vector_of(up, "up"), fov};
-            if (!(penumbra::detail::sine_between(camera.up, camera.target - camera.eye) >=
-                  1e-9))  // NaN is not
+            if (penumbra::detail::are_parallel(camera.up, camera.target - camera.eye))
               throw UsageError("eye equals target, or up is 0 or parallel to the line of sight");
             return camera;
           }),

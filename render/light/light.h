@@ -28,8 +28,8 @@ struct RectangleLight {
 using LightShape = std::variant<DiskLight, RectangleLight, DistantLight>;
 
 struct Light {
-  /// Of letters, digits, '-' and '_'; unlike that of any other light of a scene. May be empty where a scene
-  /// has one light.
+  /// Of letters, digits, '-' and '_', at most 200; unlike that of any other light of a scene. May be empty
+  /// where a scene has one light.
   std::string name{};
   LightShape shape{};
   /// Linear RGB, W/(m² sr) if a scene unit is a meter. Of a disk of radius 0: its intensity, W/sr; of a

@@ -32,7 +32,7 @@ Camera read_camera(const SceneNode& node) {
   if (camera.eye == camera.target) target.fail("equals eye; the camera needs a direction to look in");
   const auto up = node.find("up");
   if (up) camera.up = up->vec3();
-  if (sine_between(camera.up, camera.target - camera.eye) < 1e-9)
+  if (are_parallel(camera.up, camera.target - camera.eye))
     (up ? *up : node).fail("up is 0 or parallel to the line of sight; choose another up");
   if (const auto fov = node.find("fov_y_degrees")) {
     camera.fov_y_degrees = fov->number();

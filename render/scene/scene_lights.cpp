@@ -42,7 +42,7 @@ RectangleLight read_rectangle(const SceneNode& node) {
   const std::vector<double> half = extents.numbers(2);
   light.tangent = tangent.vec3();
   light.half_extents = {half[0], half[1]};
-  if (sine_between(light.tangent, light.normal) < kParallel)
+  if (are_parallel(light.tangent, light.normal))
     tangent.fail("is 0 or parallel to normal; give the direction of one side");
   if (!(half[0] > 0.0 && half[1] > 0.0)) extents.fail("must be greater than 0");
   return light;
@@ -116,8 +116,8 @@ bool is_light_name(const std::string& name) {
   return !name.empty() && name.size() <= 200 && std::all_of(name.begin(), name.end(), fits);
 }
 
-double sine_between(const Vec3& a, const Vec3& b) {
-  return glm::length(glm::cross(unit(a), unit(b)));
+bool are_parallel(const Vec3& a, const Vec3& b) {
+  return !(glm::length(glm::cross(unit(a), unit(b))) >= kParallel);  // NaN is not
 }
 
 std::vector<Light> read_lights(const SceneNode& root) {

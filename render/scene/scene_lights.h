@@ -17,7 +17,8 @@ std::vector<Light> read_lights(const SceneNode& root);
 /// of up to 255.
 bool is_light_name(const std::string& name);
 
-/// Sine of the angle between two vectors of any length; 0 where one of them is 0.
-double sine_between(const Vec3& a, const Vec3& b);
+/// Whether two vectors of any length are so nearly parallel (sine below 1e-9) that they span no plane; also
+/// where one of them is 0 or no number.
+bool are_parallel(const Vec3& a, const Vec3& b);
 
 }  // namespace penumbra::detail

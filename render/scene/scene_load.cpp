@@ -113,9 +113,9 @@ LoadedScene parse_scene_or_mesh(std::string_view bytes, const std::filesystem::p
                                 const std::string& name, const SceneOptions& options) {
   const auto raw = std::as_bytes(std::span(bytes));
   if (detail::begins_like_glb(raw)) return detail::read_gltf(raw, folder, name, options);
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";  // of UTF-8; the parser passes over it
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n", bytes.starts_with(kMark) ? kMark.size() : 0);
-  if (first == bytes.npos || bytes[first] != '{') return scene_of(parse_polygon_soup(raw, name), name);
+  const std::string_view text = detail::without_mark(bytes);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == text.npos || text[first] != '{') return scene_of(parse_polygon_soup(raw, name), name);
   if (bytes.size() > kMaxSceneBytes)
     throw SceneError(name + ": is larger than 16 MiB, no scene file; keep large data in mesh files");
   return parse_scene(bytes, folder, name, options);

@@ -23,9 +23,10 @@ constexpr const char* kFooter = R"(Examples:
   penumbra compare dbuffer.exr scene.json --object 0 --json
 Errors are of visibility, the fraction of the disk seen. Against a scene two independent references are traced and the
 noise they have is taken out of the RMSE; the worst 2% of penumbra pixels (at least 1,000) are sampled again with 65,536
-rays before p99 and maximum are stated; where p99 is 25 times the noise or more only the worst 20. Against an image that image is taken as it is. The interval is a 95% bootstrap
-over pixels. --judge double shares nothing with the methods, its camera included. It looks at some pixels, samples the
-worst 300 again with 32,768 rays, and counts certificates (channel region) that its rays contradict.)";
+rays before p99 and maximum are stated; where p99 is 25 times the noise or more only the worst 20. Against an image that
+image is taken as it is. The interval is a 95% bootstrap over pixels. --judge double shares nothing with the methods, its
+camera included. It looks at some pixels, samples the worst 300 again with 32,768 rays, and counts certificates (channel
+region) that its rays contradict.)";
 
 struct Arguments {
   CommonOptions common;

@@ -13,8 +13,7 @@ struct Resampling {
 };
 // Of the worst pixels. The oracle's rays take some ten times as long as Embree's.
 constexpr Resampling kByRays{0.02, 1'000, 65'536}, kByOracle{0.0, 300, 32'768};
-// Where p99 is so many times the references' noise only the few worst pixels are sampled again: the
-// maximum's.
+// Where p99 is so many times the references' noise, only so many of the worst pixels are traced again.
 constexpr double kFarAboveNoise = 25.0;
 constexpr std::size_t kFewWorst = 20;
 

@@ -42,19 +42,19 @@ class Ranks {
   bool is_abandoned() const { return abandoned_; }
 
  private:
-  Ranks(const MpiLibrary& library, int rank, int size)
-      : library_(library), rank_(rank), size_(size), receiving_(static_cast<std::size_t>(size)) {}
-
-  const MpiLibrary& library_;
-  const int rank_, size_;
   struct Receiving {
     RankMessage message;
     void* receipt = nullptr;  // MPI's, while bytes are on their way into the message
   };
 
+  Ranks(const MpiLibrary& library, int rank, int size)
+      : library_(library), rank_(rank), size_(size), receiving_(static_cast<std::size_t>(size)) {}
+
   /// Whether the next message of this rank is there, whole.
   bool receive(Receiving& next, int from);
 
+  const MpiLibrary& library_;
+  const int rank_, size_;
   std::vector<Receiving> receiving_;  // by rank
   bool abandoned_ = false;
   std::mutex mutex_;

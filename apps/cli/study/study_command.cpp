@@ -21,9 +21,8 @@ constexpr const char* kFooter = R"(Examples:
   penumbra study scene.json --output study --quick
   penumbra study scene.json --output study --methods silhouette,rays
 Every method is timed and judged with its defaults, and with all combinations of its options where these are at most 16;
-else with each option varied alone. DIR gets rows.jsonl, to which
-rows are added as they finish, study.csv, study.json, pictures/ and index.html, one page that needs no network. A second
-call measures what is missing. Times are milliseconds, errors are of the fraction of the light that is seen.)";
+else with each option varied alone. DIR gets rows.jsonl, to which rows are added as they finish, study.csv, study.json,
+pictures/ and index.html, one page that needs no network. A second call measures what is missing. Times are milliseconds, errors are of the fraction of the light that is seen.)";
 
 // Errors at such a size and with so few rays are for a first look.
 constexpr StudyView kQuickView{.width = 320, .height = 240};

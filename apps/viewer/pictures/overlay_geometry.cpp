@@ -145,11 +145,13 @@ bool OverlayMaker::fits(const State& state) const {
 }
 
 std::shared_ptr<const OverlayGeometry> OverlayMaker::update(const State& state) {
-  if (task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) try {
+  if (task_.valid() && task_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+    try {
       ready_ = task_.get();
     } catch (const std::exception&) {  // no memory, say: there is nothing to draw of this state
       ready_ = nullptr;
     }
+  }
   if (!state.overlays.geometry()) return nullptr;
   if (!task_.valid() && !fits(state)) {
     made_for_ = state;
