@@ -4,8 +4,8 @@
 #include <span>
 #include <utility>
 
-#include "mesh/io/formats.h"
 #include "mesh/io/cursor.h"
+#include "mesh/io/formats.h"
 #include "mesh/io/read_file.h"
 #include "penumbra/mesh/error.h"
 #include "penumbra/mesh/io/polygon_soup.h"
